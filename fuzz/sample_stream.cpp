@@ -142,7 +142,7 @@ class Stream {
     const RejectCounts rejected = grid_.streams().rejected();
     // A stuck sensor is counted once for the pair; a reading that begins a new series is counted and used.
     const std::uint64_t seen = 2 * samples_ + rejected.total() + rejected.count(RejectReason::kStuck);
-    require(readings_ <= seen + 2 * StreamGrid::kMostWaiting, "every reading waits, is used or is counted");
+    require(readings_ <= seen + 2 * kMostWaiting, "every reading waits, is used or is counted");
     require(seen <= readings_ + rejected.count(RejectReason::kTimeWentBack), "no reading is counted twice");
     require(monitor_.input().samples + monitor_.rejected().total() == samples_, "every sample is used or counted");
   }
