@@ -146,7 +146,7 @@ TEST(VehicleClaims, SayThatAStrutIsMissing) {
         blocks.pushTop(i, fromSeconds(0.01 * static_cast<double>(k)), record.body[i][k]);
         blocks.pushWheel(i, fromSeconds(0.01 * static_cast<double>(k)), record.wheel[i][k]);
       }
-    EXPECT_EQ(mistakeOf(blocks).kind, Kind::kOthers) << made;
+    EXPECT_EQ(blocks.claims().find().kind, Kind::kOthers) << made;
   }
 }
 

@@ -35,13 +35,6 @@ inline VehicleTops topsOf(const vehicle_drive::Vehicle& vehicle, const vehicle_d
   return tops;
 }
 
-inline VehicleMistake mistakeOf(const VehicleBlocks& blocks) {
-  VehicleClaims claims = blocks.claims();
-  while (!claims.work()) {
-  }
-  return claims.found();
-}
-
 /// @param change  what the file says wrongly, or a sensor does.
 inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& drive,
                  const std::function<void(vehicle_drive::Record&, VehicleTops&)>& change = {}) {
@@ -67,7 +60,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
     if (drive.pull > 0.0) keep(blocks.pushForce(0, stamp, record.pull[k]));
   }
   for (std::size_t i = 0; i < n; ++i) told.over_the_drive.push_back(blocks.overTheDrive(i));
-  told.mistake = mistakeOf(blocks);
+  told.mistake = blocks.claims().find();
   if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit::of(n, tops.places()).fit(rows, blocks.rowsOfHalves());
   return told;
 }

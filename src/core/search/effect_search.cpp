@@ -227,7 +227,8 @@ void Search::name(Verdict verdict, const EvaluatedModel& model) {
   result_.extended = model.ranked;
   result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
   result_.final_fit = finalFit(model);
-  if (result_.final_fit) result_.final_fit->model.is_complete = verdict != Verdict::kSuspect;
+  if (result_.final_fit)
+    result_.final_fit->model.is_complete = !isStructured(model.ranked.held_out_rmse, result_.noise_floor);
 }
 
 SearchResult Search::run(const ModelFit& rough) {

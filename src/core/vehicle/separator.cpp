@@ -58,10 +58,8 @@ void Separator::learnRows(const std::vector<std::string>& names) {
   }
   const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
   const auto of_body_imu = static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise));
-  VehicleClaims claims = blocks.claims(of_body_imu == names.size() ? drives_.front().places : StrutPlaces{});
-  while (!claims.work()) {
-  }
-  const VehicleMistake& mistake = claims.found();
+  const VehicleMistake mistake =
+      blocks.claims(of_body_imu == names.size() ? drives_.front().places : StrutPlaces{}).find();
   const bool are_known = rows && rows->areKnown() && !mistake.isContradiction();
   std::optional<BodyFitResult> body;
   if (are_known) {

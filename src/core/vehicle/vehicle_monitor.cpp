@@ -171,8 +171,7 @@ void VehicleMonitor::takeModels() {
 void VehicleMonitor::fitBody() {
   if (!blocks_ || numStruts() < 2) return;
   claims_.emplace(blocks_->claims());
-  while (!claims_->work()) {
-  }
+  claims_->find();
   fitRows();
 }
 

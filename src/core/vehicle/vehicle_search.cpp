@@ -82,8 +82,9 @@ void VehicleSearch::fitFound() {
   for (std::size_t k = 0; k < found.size(); ++k) {
     Diagnosis& strut = result_.struts[found[k]];
     if (!fits[k]) continue;
+    const bool is_complete = strut.model().is_complete;
     strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
-    strut.final_fit->model.is_complete = strut.verdict != Verdict::kSuspect;
+    strut.final_fit->model.is_complete = is_complete;
   }
 }
 

@@ -60,11 +60,17 @@ class VehicleClaims {
   /// @param wheels, tops  of w'' and z''.  @param forces  H_2 of the known forces, bins by forces.
   void add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXXcd& forces);
 
-  /// Does one portion: one bin or one hypothesis, some 0.2 ms for four struts.  @return true: all is done.
+  /// Does one portion: one bin or one hypothesis, at most 1 ms for four struts.  @return true: all is done.
   bool work();
 
   /// @pre work() has returned true.
   const VehicleMistake& found() const { return found_; }
+
+  /// Does all portions.
+  const VehicleMistake& find() {
+    while (!work()) continue;
+    return found_;
+  }
 
  private:
   /// Streams of all struts as they would be without a mistake, from those that were measured.

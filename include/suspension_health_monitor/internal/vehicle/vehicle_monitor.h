@@ -66,7 +66,7 @@ class VehicleMonitor {
   void addTemperature(std::size_t strut, Stamp stamp, double celsius);
 
   /// Tests the vehicle file (VehicleClaims) and fits a rigid body to the rows (BodyFit), so that absolute values carry
-  /// the model's error. Takes 15 ms for four struts: not for the sample path.
+  /// the model's error. Takes 10 ms for four struts: not for the sample path.
   void fitBody();
 
   /// The same: at once for the first time, and then, where enough blocks are new, one portion a call: at most 2 ms.
