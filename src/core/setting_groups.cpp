@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/setting_groups.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
 

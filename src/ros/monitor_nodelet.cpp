@@ -112,9 +112,6 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   temperatures_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
-  body_ = node.createWallTimer(ros::WallDuration(kBodyPeriod), [this](const ros::WallTimerEvent&) {
-    if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
-  });
 }
 
 void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
@@ -133,6 +130,9 @@ void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
 void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
   NODELET_INFO("%zu struts (%s) listen to %s", struts_.size(), join(options_.strutNames(), ", ").c_str(),
                join(topics(), ", ").c_str());
+  body_ = private_node.createWallTimer(ros::WallDuration(kBodyPeriod), [this](const ros::WallTimerEvent&) {
+    if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
+  });
   reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
   diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
     return searchOf(vehicleSamples(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });

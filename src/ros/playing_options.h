@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <string>
 
 #include "suspension_health_monitor/internal/option_table.h"

@@ -81,8 +81,12 @@ void requireItsStruts(const VehicleOptions& options) {
 void dropNominalOfIncompleteModels(VehicleOptions& options) {
   for (std::size_t i = 0; i < options.struts.size(); ++i) {
     PipelineOptions& strut = options.struts[i];
-    if (strut.shell.model_file.empty() || LiveModel(strut.shell, options.model_of[i]).isComplete()) continue;
-    strut.monitor.nominal_damping_to_mass = strut.monitor.nominal_stiffness_to_mass = std::nullopt;
+    auto &damping = strut.monitor.nominal_damping_to_mass, &stiffness = strut.monitor.nominal_stiffness_to_mass;
+    if (strut.shell.model_file.empty() || !(damping || stiffness)) continue;
+    const std::string& name = options.layout.struts[i].name;
+    prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
+      if (!LiveModel(strut.shell, options.model_of[i]).isComplete()) damping = stiffness = std::nullopt;
+    });
   }
 }
 

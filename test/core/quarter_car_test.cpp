@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <complex>
 #include <stdexcept>
-#include <string>
 
 #include "reference/quarter_car_forms.h"
 

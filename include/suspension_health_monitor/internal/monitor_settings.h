@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -128,7 +127,7 @@ inline constexpr OptionField<MonitorOptions> kMonitorFields[] = {
     {"health", "health/payload_range", "-", "largest relative change of body mass that counts as payload; 0: none does",
      &MonitorOptions::payload_range, 0.0, 10.0},
     {"health", "health/oldest_data", "s",
-     "largest age of the data behind an estimate, as of a parked vehicle; beyond it Health cannot tell",
+     "maximum age of the data of an estimate, as when the vehicle is parked; with older data Health is STALE",
      &MonitorOptions::oldest_data, 1e-3, 1e9},
     {"health", "baseline/learn_time", "s", "valid driving time from which a baseline is learned; 0: none is learned",
      &MonitorOptions::learn_time, 0.0, 1e6},

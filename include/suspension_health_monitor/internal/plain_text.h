@@ -33,7 +33,7 @@ inline std::string shortened(std::string text, std::size_t most = 120) {
 }
 
 /// Refuses a number.
-/// @param unit  empty: none is told.  @param wanted  what would be allowed, to be read after "must be".
+/// @param unit  empty: the message has none.  @param wanted  what is allowed: the message ends with it after "must be".
 [[noreturn]] inline void refuse(std::string_view name, double value, std::string_view unit, const std::string& wanted) {
   throw std::invalid_argument(std::string(name) + " = " + numberText(value) +
                               (unit.empty() ? "" : " [" + std::string(unit) + ']') + ", must be " + wanted);

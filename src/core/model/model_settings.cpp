@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
-#include <array>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>

@@ -27,12 +27,13 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 }  // namespace
 
 VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s,
-                             const StrutPlaces& places)
+                             const StrutPlaces& places, int most_blocks)
     : n_(static_cast<Eigen::Index>(struts)),
       forces_(static_cast<Eigen::Index>(forces)),
       s_(s),
       places_(places),
-      columns_(static_cast<std::size_t>(s.size())) {
+      columns_(static_cast<std::size_t>(s.size()), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
+      products_(columns_.size()) {
   whole_.setZero(2 * n_, 2 * n_);
   measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
   in_step_ = measured_;
@@ -48,8 +49,6 @@ void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen:
   }
   whole_ += (columns.topRows(2 * n_) * columns.topRows(2 * n_).adjoint()).real();
   columns.array().rowwise() /= (s_ * s_).transpose();  // displacements, which a bounce has most of
-  if (blocks_ == columns_.front().cols())
-    for (Eigen::MatrixXcd& bin : columns_) bin.conservativeResize(columns.rows(), 2 * blocks_ + kFewestBlocks);
   for (Eigen::Index k = 0; k < s_.size(); ++k) columns_[static_cast<std::size_t>(k)].col(blocks_) = columns.col(k);
   ++blocks_;
 }
@@ -174,7 +173,6 @@ bool VehicleClaims::begins() {
     found_.kind = Kind::kTooLittle;
   else
     found_ = sameOrAlike();
-  products_.resize(columns_.size());
   return found_.kind == Kind::kNone;
 }
 

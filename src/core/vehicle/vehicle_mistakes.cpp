@@ -109,8 +109,7 @@ std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
 
 // Tops that the body's IMU tells of move with its heave, pitch and roll.
 void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
-  const StrutPlaces& places = places_;
-  const Eigen::MatrixXd inverse = motionsOf(places).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = motionsOf(places_).completeOrthogonalDecomposition().pseudoInverse();
   using Change = std::function<void(double size, StrutPlaces& places)>;
   const auto add = [&](Kind kind, std::size_t strut, const std::vector<double>& sizes, const Change& change) {
     all.push_back({kind, {strut, strut}, sizes, [places = places_, change, inverse, n = n_](double size, Mapping& m) {
@@ -120,8 +119,8 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
                    }});
   };
   for (const std::size_t axis : {0u, 1u}) {
-    const double spread = spreadOf(places, axis);
-    if (!isSpread(places, axis)) continue;
+    const double spread = spreadOf(places_, axis);
+    if (!isSpread(places_, axis)) continue;
     const bool is_ahead = axis == 0;
     const auto shifted = [axis](double size, StrutPlaces& other) {
       for (auto& place : other) place[axis] += size;
@@ -134,7 +133,7 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
         for (auto& place : other) place[axis] *= size;
       };
       add(is_ahead ? Kind::kAhead : Kind::kSide, 0, *sizes, times);
-      for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t i = 0; i < places_.size(); ++i)
         add(is_ahead ? Kind::kAheadOfOne : Kind::kSideOfOne, i, *sizes,
             [axis, i](double size, StrutPlaces& other) { other[i][axis] *= size; });
     }

@@ -78,7 +78,7 @@ VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
   const auto num_forces = static_cast<Eigen::Index>(tops_.known_forces);
-  VehicleClaims claims(tops_.size(), tops_.known_forces, s, of_body_imu);
+  VehicleClaims claims(tops_.size(), tops_.known_forces, s, of_body_imu, estimators_.front().count());
   VehicleClaims::Spectra wheels, tops;
   Eigen::ArrayXXcd forces(s.size(), num_forces);
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);

@@ -54,7 +54,9 @@ class VehicleClaims {
 
   /// @param s  of the bins of a block [rad/s].
   /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.
-  VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s, const StrutPlaces& places);
+  /// @param most_blocks  that are added.
+  VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s, const StrutPlaces& places,
+                int most_blocks);
 
   /// Adds the next older block.
   /// @param wheels, tops  of w'' and z''.  @param forces  H_2 of the known forces, bins by forces.
@@ -106,8 +108,8 @@ class VehicleClaims {
   StrutPlaces places_;
   // By bin, in a column per block, newest first: by p the wheels, then the tops; forces; of displacements.
   std::vector<Eigen::MatrixXcd> columns_;
-  Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
   std::vector<Eigen::MatrixXcd> products_;  // by bin: of columns_, what goes with the wheels
+  Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
   Eigen::MatrixXd measured_, in_step_;      // sums over bins: of all that was measured, of products_
   std::vector<Hypothesis> hypotheses_;
   std::size_t next_ = 0;  // bin, then hypothesis

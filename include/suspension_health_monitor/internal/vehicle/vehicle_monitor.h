@@ -111,7 +111,7 @@ class VehicleMonitor {
   VehicleMistake mistake_{VehicleMistake::Kind::kTooLittle, {}};
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
-  std::int64_t samples_ = 0;      // since the struts are told apart
+  std::int64_t samples_ = 0;      // since the rows are known
   bool is_alone_;                 // nothing known moves the one strut
   std::optional<Stamp> last_;     // sample
   std::optional<Stamp> coupled_;  // first fit of the body when it was due
