@@ -19,13 +19,18 @@ Diagnosis diagnose(const std::vector<Drive>& drives, const DiagnoseOptions& opti
   const Records records = pointersTo(prepared.records);
   DiagnoseOptions searched = options;
   const auto untestable = takeUntestable(searched.candidates, records);
+  std::vector<std::string> of_frequency;
+  if (prepared.one_frequency) of_frequency = takeFrequencyResponses(searched.candidates);
   result = searchEffects(records, prepared.start, searched, prepared.lagged);
   result.reason = reasonOf(result.shortcoming, prepared.start);
   if (!result) return result;
+  result.one_frequency = prepared.one_frequency;
+  if (result.one_frequency && result.verdict == Verdict::kEffectFound) result.verdict = Verdict::kSuspect;
   result.summary = summaryOf(result);
   result.remainder = remainderOf(result);
   result.suggested_drive = suggestionOf(result);
   for (const auto& [name, missing] : untestable) result.not_tried.emplace_back(name, reasonOf(missing));
+  for (const std::string& name : of_frequency) result.not_tried.emplace_back(name, kOneFrequency);
   const auto has_samples = [](const Drive& drive) { return !drive.samples.empty(); };
   result.from = std::find_if(drives.begin(), drives.end(), has_samples)->samples.front().stamp;
   result.to = std::find_if(drives.rbegin(), drives.rend(), has_samples)->samples.back().stamp;

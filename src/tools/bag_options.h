@@ -9,6 +9,7 @@
 #include "asked_vehicle.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/record/motion_range.h"
 
 namespace suspension_health_monitor {
 
@@ -19,7 +20,8 @@ struct BagOptions {
   ImuBags bags;  ///< as findSensors()
   bool period_measured = false;
   bool horizon_measured = false;
-  std::optional<double> clock_offset;  ///< by which the body's clock seems to be late [s], of readBagOptions()
+  std::optional<double> clock_offset;        ///< by which the body's clock seems to be late [s], of readBagOptions()
+  std::optional<MotionRange> one_frequency;  ///< likewise, if all motion is at one
 
   double period() const { return *settings.common.monitor.sample_period; }  ///< [s], of readBagOptions()
 };

@@ -8,6 +8,7 @@
 #include "results.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
@@ -105,9 +106,10 @@ std::string whyNotValid(const IdentifyResult& found, const MonitorOptions& optio
          "or not the two sides of one strut";
 }
 
-/// @param late  BagOptions::clock_offset.
-std::string suspicions(const RecordedMonitor& recorded, std::size_t strut, const std::optional<double>& late) {
-  if (late) return formatted("; the IMUs' clocks seem to differ by %.0f ms: diagnose tells", 1e3 * std::abs(*late));
+std::string suspicions(const RecordedMonitor& recorded, std::size_t strut, const BagOptions& options) {
+  if (options.one_frequency) return ". " + describe(*options.one_frequency);
+  if (const std::optional<double>& late = options.clock_offset)
+    return formatted("; the IMUs' clocks seem to differ by %.0f ms: diagnose tells", 1e3 * std::abs(*late));
   return describeSuspicions(recorded.strut(strut).report(),
                             recorded.vehicle().isStrutAlone() ? &recorded.grid() : nullptr);
 }
@@ -120,7 +122,7 @@ void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyRes
   for (const std::size_t i : vehicle.asked) {
     const std::string reason = whyNotValid(found[i], options.settings.struts[i].monitor);
     if (reason.empty()) return;
-    reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, options.clock_offset));
+    reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, options));
   }
   throw TooLittleError(join(reasons, "; ") + describeRejected(recorded.pipeline().rejected()));
 }

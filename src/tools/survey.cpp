@@ -9,6 +9,7 @@
 #include "command.h"
 #include "recorded_drives.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/record/motion_range.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
@@ -38,9 +39,13 @@ std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
   return measurement.period();
 }
 
-/// @return what the bags tell of a strut alone, as soon as blocks know it well enough; empty: they show no damped
-/// spring.
-std::optional<RoughStrut> survey(const BagOptions& options) {
+/// What the bags tell of a strut alone.
+struct Survey {
+  std::optional<RoughStrut> strut;   ///< empty: they show no damped spring
+  std::optional<MotionRange> range;  ///< of what was read until the strut was known
+};
+
+Survey survey(const BagOptions& options) {
   StrutBlocks blocks({}, options.period());
   std::optional<RoughStrut> rough;
   Drive drive;
@@ -49,11 +54,14 @@ std::optional<RoughStrut> survey(const BagOptions& options) {
     if (drive.samples.size() < kLookedAt) drive.samples.push_back(sample);
     const BlockEstimate* estimate = blocks.push(sample);
     if (estimate != nullptr && estimate->worst() < kEnough) rough.emplace(*estimate);
-    return !rough;
+    // A few blocks of a law with memory look as if the clocks differed, the whole drive does not.
+    return !rough || rough->clocksDiffer(options.period());
   };
   readSamples(options.bags, options.settings.common, options.vehicle.layout, {take});
-  if (const auto all = blocks.overTheDrive(); all && !rough) rough.emplace(*all);
-  return rough ? rough : roughStrut({drive}, options.period());
+  const bool is_open = !rough || rough->clocksDiffer(options.period());
+  if (const auto all = blocks.overTheDrive(); all && is_open) rough.emplace(*all);
+  if (!rough) rough = roughStrut({drive}, options.period());
+  return {rough, rangeOfMotion(pointersTo(makeRecords({drive}, options.period(), StrutModel())))};
 }
 
 }  // namespace
@@ -78,11 +86,15 @@ BagOptions readBagOptions(const boost::program_options::variables_map& values) {
   if (options.period_measured) common.sample_period = measurePeriod(options.bags);
   for (PipelineOptions& strut : options.settings.struts) strut.monitor.sample_period = common.sample_period;
   if (!options.vehicle.isStrutAlone() || common.integration_horizon) return options;
-  if (const std::optional<RoughStrut> rough = survey(options)) {
+  const auto [rough, range] = survey(options);
+  if (range && range->isOneFrequency()) options.one_frequency = range;
+  if (rough) {
     options.horizon_measured = true;
     common.integration_horizon = rough->horizonSamples(options.period()) * options.period();
     options.settings.struts.front().monitor.integration_horizon = common.integration_horizon;
-    if (rough->clocksDiffer(options.period())) options.clock_offset = rough->clock_offset;
+    // Laws with memory turn the phase as a delay does: of a strut that explains nearly all, on a wide band, it is one.
+    if (range && range->isWide() && rough->explained > kNearlyAll && rough->clocksDiffer(options.period()))
+      options.clock_offset = rough->clock_offset;
   }
   return options;
 }

@@ -90,7 +90,15 @@ std::string summaryOf(const SearchResult& result) {
   return "Something is missing, but no known effect explains most of it: no name is given.";
 }
 
+std::string describe(const MotionRange& one_frequency) {
+  return formatted(
+      "All motion is between %.2g and %.2g Hz, and one frequency cannot tell which law it is: drive on a "
+      "road, or over bumps at several speeds",
+      one_frequency.low, one_frequency.high);
+}
+
 std::string suggestionOf(const SearchResult& result) {
+  if (result.one_frequency) return describe(*result.one_frequency) + ".";
   if (result.verdict == Verdict::kUnexplained) return suggestForUnexplained(result);
   std::vector<std::string> sentences;
   for (const SeparatingDrive& drive : result.separating) sentences.push_back(suggest(drive));
@@ -98,7 +106,7 @@ std::string suggestionOf(const SearchResult& result) {
 }
 
 std::string remainderOf(const SearchResult& result) {
-  if (result.verdict != Verdict::kSuspect) return "";
+  if (result.verdict != Verdict::kSuspect || result.one_frequency) return "";
   if (result.remainder_surface_share > kLawOfTravelAndRate)
     return "A force of travel and travel rate would take " + percent(result.remainder_surface_share) +
            " of what it leaves: the law is not quite this one, or another acts beside it.";

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "suspension_health_monitor/diagnose.h"
-#include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/record/motion_range.h"
 
 namespace suspension_health_monitor {
 
@@ -26,6 +26,7 @@ struct SearchResult : Diagnosis {
   double folded_share = 0.0;                ///< without a name: rms of foldedMotion() over that of the structure
   bool turns_body = false;                  ///< without a name: the strut turns its body, so that it is not alone on it
   double remainder_surface_share = 0.0;     ///< of what a suspect leaves, what a free-form force would take
+  std::optional<MotionRange> one_frequency;  ///< if all motion is at one: no name is certain
 };
 
 /// diagnose() of drives that are prepared already.

@@ -21,7 +21,11 @@ std::string remainderOf(const SearchResult& result);
 /// What to record next, in sentences; empty if there is nothing to tell apart and nothing unexplained.
 std::string suggestionOf(const SearchResult& result);
 
+/// What motion at one frequency cannot tell, and what to do.
+std::string describe(const MotionRange& one_frequency);
+
 /// Why an effect is not tried.
+inline constexpr const char* kOneFrequency = "all motion is at one frequency, which cannot tell it";
 std::string reasonOf(BodyChannel missing);
 
 /// Why there is no model with a candidate, to be read after its name; empty for kNone.

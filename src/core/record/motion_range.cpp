@@ -1,0 +1,91 @@
+#include "suspension_health_monitor/internal/record/motion_range.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/periodogram.h"
+#include "suspension_health_monitor/internal/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr double kOutside = 0.05;  // of the power, on either side
+constexpr std::size_t kShortestWindow = 64, kLongestWindow = 16384;
+
+/// @return the bin below which that share of the power is.
+double quantile(const std::vector<double>& power, double share) {
+  double all = 0.0, below = 0.0;
+  for (const double each : power) all += each;
+  std::size_t bin = 0;
+  while (bin + 1 < power.size() && below + power[bin] < share * all) below += power[bin++];
+  return static_cast<double>(bin);
+}
+
+/// A force that is `factor` times as large where all that moves is, and does not depend on time.
+bool followsFactor(const ForceEffect& effect, const std::vector<double>& shapes, double factor) {
+  const auto motion = [](double size, double time) {
+    return StrutMotion{size, 0.7 * size, time, {0.5 * size, 0.3 * size}, 0.9 * size};
+  };
+  const auto isScaled = [&](double one, double other) {
+    return std::abs(other - factor * one) <= 1e-9 * std::abs(one);
+  };
+  const StrutMotion one = motion(1.0, 0.0), other = motion(factor, 1.0);
+  if (!isScaled(effect.force(one, shapes.data()), effect.force(other, shapes.data()))) return false;
+  if (!effect.memory_rate) return true;
+  const Memory rate = effect.memory_rate(one, shapes.data()), there = effect.memory_rate(other, shapes.data());
+  return isScaled(rate.s, there.s) && isScaled(rate.second, there.second);
+}
+
+bool isFrequencyResponse(const ForceEffect& effect) {
+  if (effect.lasts) return false;
+  std::vector<double> shapes;  // not equal ones, by which terms of a law may cancel
+  for (const ShapeParameter& shape : effect.shapes) {
+    const double place = (static_cast<double>(shapes.size()) + 1.0) / (static_cast<double>(effect.shapes.size()) + 1.0);
+    shapes.push_back(shape.min * std::pow(shape.max / shape.min, place));
+  }
+  return followsFactor(effect, shapes, -1.0) && followsFactor(effect, shapes, 2.0);
+}
+
+}  // namespace
+
+std::optional<MotionRange> rangeOfMotion(const Records& records) {
+  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  std::vector<std::size_t> sizes;
+  for (const DriveSegment* segment : segments) sizes.push_back(segment->size());
+  const std::size_t longest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
+  if (longest < kShortestWindow) return std::nullopt;
+  std::size_t length = kShortestWindow;
+  while (2 * length <= std::min(longest, kLongestWindow)) length *= 2;
+
+  std::vector<double> power(length / 2 + 1), relative(length);
+  Periodogram periodogram(length);
+  Spectrum spectrum;
+  Periodogram::forEachWindow(sizes, length, [&](std::size_t segment, std::size_t first) {
+    for (std::size_t k = 0; k < length; ++k)
+      relative[k] = segments[segment]->unsprung[first + k] - segments[segment]->sprung[first + k];
+    periodogram.of(relative.data(), spectrum);
+    for (std::size_t bin = 1; bin < power.size(); ++bin)
+      power[bin] += std::norm(spectrum[bin]) / square(static_cast<double>(bin));
+  });
+  const double low = quantile(power, kOutside), high = quantile(power, 1.0 - kOutside);
+  if (!(low > 0.0)) return std::nullopt;
+  const double bin = 1.0 / (static_cast<double>(length) * records.front()->period());
+  return MotionRange{bin * low, bin * high, bin};
+}
+
+std::vector<std::string> takeFrequencyResponses(EffectLibrary& library) {
+  std::vector<std::string> names;
+  std::vector<ForceEffect> others;
+  for (ForceEffect& effect : library.forces) {
+    if (isFrequencyResponse(effect))
+      names.push_back(effect.name);
+    else
+      others.push_back(std::move(effect));
+  }
+  for (const MeasurementEffect& effect : library.readings) names.push_back(effect.name);
+  library.forces = std::move(others);
+  library.readings.clear();
+  return names;
+}
+
+}  // namespace suspension_health_monitor
