@@ -31,6 +31,11 @@ const ActiveEffect* find(const std::vector<ActiveEffect>& effects, const std::st
   return found == effects.end() ? nullptr : &*found;
 }
 
+bool haveSameNames(const std::vector<ActiveEffect>& some, const std::vector<ActiveEffect>& others) {
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                    [](const ActiveEffect& a, const ActiveEffect& b) { return a.effect.name == b.effect.name; });
+}
+
 /// As the final fit has the effect, else as it was fitted alone.
 const ActiveEffect* find(const Diagnosis& found, const std::string& name) {
   if (const ActiveEffect* active = found.final_fit ? find(found.final_fit->model.effects, name) : nullptr)
@@ -163,7 +168,12 @@ std::vector<std::string> LiveModel::missing() const {
 
 void LiveModel::save(StrutModel model) const {
   if (model_file_.empty()) throw std::runtime_error("no file to write to: set the parameter model_file");
-  if (loaded_) model.reading = loaded_->reading;
+  if (loaded_) {
+    model.reading = loaded_->reading;
+    model.is_complete = loaded_->is_complete;
+  }
+  if (diagnosis_ && *diagnosis_ && haveSameNames(diagnosis_->model().effects, model.effects))
+    model.is_complete = diagnosis_->model().is_complete;
   if (strut_.empty()) return TextFile(model_file_).commit(toYaml(model));
   ModelsByStrut all;
   if (std::filesystem::exists(model_file_)) all = readModelsFile(model_file_, library_);

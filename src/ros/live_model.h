@@ -55,7 +55,8 @@ class LiveModel {
   std::vector<std::string> missing() const;
 
   /// Writes the model to model_file, whole or not at all; the models of other struts that it has stay.
-  /// @param model  as it is now; faults of a reading stay as model_file has them.
+  /// @param model  as it is now; faults of a reading stay as model_file has them. It is as complete as the
+  /// last diagnosis of the same effects found it, or as model_file says.
   /// @throws std::runtime_error  naming the file that cannot be written, or the option that is not given.
   /// @throws std::invalid_argument  if the file has become none that readModelsFile() takes.
   void save(StrutModel model) const;

@@ -6,6 +6,7 @@ import unittest
 
 import rospy
 import rostest
+import yaml
 from live_drive import COEFFICIENT, DRIVE, EFFECT, KEPT, SETTINGS, START, Services, load_monitor
 from ros_session import PACKAGE, Collector, Pace, load_nodelet
 from sensor_msgs.msg import Imu
@@ -38,6 +39,20 @@ class ChosenModelTest(unittest.TestCase):
             self.assertFalse(answer.success)
             self.assertIn(words, answer.message)
         self.assertFalse(os.path.exists(os.path.dirname(path)))
+
+    def test_model_that_leaves_more_than_noise_is_saved_as_one(self):
+        path = os.path.join(self.folder.name, "incomplete.yaml")
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write("damping_to_mass: 3.0\nstiffness_to_mass: 110.0\ncomplete: false\n")
+        estimates = Collector("/incomplete/la", ParameterEstimate)
+        with load_monitor("incomplete", model_file=path):
+            estimates.wait_for(lambda message: message.valid, "a valid estimate")
+            self.assertTrue(Services("incomplete").save_model().success)
+        estimates.stop()
+        with open(path, encoding="utf-8") as stream:
+            saved = yaml.safe_load(stream)
+        self.assertIs(saved["complete"], False)
+        self.assertNotEqual(saved["stiffness_to_mass"], 110.0)
 
     def test_shapes_of_the_drive_are_taken_where_none_are_given(self):
         estimates = Collector("/shaped/la", ParameterEstimate)
