@@ -94,6 +94,11 @@ TEST(VehicleClaims, TellByHowMuchAStreamIsLate) {
   };
   expectLate(late(shortDrive(), [](Record& record) { delay(record.wheel[1], 2); }), Kind::kLateWheel, 1, 0.02);
   expectLate(late(shortDrive(), [](Record& record) { delay(record.body[2], 1); }), Kind::kLateTop, 2, 0.01);
+  expectLate(late(shortDrive(),
+                  [](Record& record) {
+                    for (auto& wheel : record.wheel) delay(wheel, 1);
+                  }),
+             Kind::kLateTops, 0, -0.01);
   expectLate(late(byBody(),
                   [](Record& record) {
                     for (auto& channel : record.imu) delay(channel, 1);
@@ -116,9 +121,8 @@ TEST(VehicleClaims, NameOnePositionThatChangesLessThanTheGyrosNoise) {
   vehicle_drive::Vehicle sedan = vehicle_drive::made("sedan", 1);
   sedan.roughness *= 16.0;  // class C
   for (const std::size_t strut : {0u, 3u}) {
-    const VehicleMistake found = tell(sedan, byBody(), [&](Record&, VehicleTops& tops) {
-                                   tops.tops[strut].position->y() *= 0.8;
-                                 }).mistake;
+    const VehicleMistake found =
+        tell(sedan, byBody(), [&](Record&, VehicleTops& tops) { tops.tops[strut].position->y() *= 0.8; }).mistake;
     EXPECT_EQ(found.kind, Kind::kSideOfOne);
     EXPECT_EQ(found.struts.first, strut);
     EXPECT_NEAR(found.size, 1.0 / 0.8, 4.0 * found.stddev);

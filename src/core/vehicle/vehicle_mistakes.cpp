@@ -49,6 +49,7 @@ bool VehicleMistake::isContradiction() const {
     case Kind::kAlike:
     case Kind::kLateWheel:
     case Kind::kLateTop:
+    case Kind::kLateTops:
     case Kind::kLateBody:
     case Kind::kOthers: return false;
     default: return true;
@@ -60,6 +61,7 @@ bool VehicleMistake::isLarge() const {
   switch (kind) {
     case Kind::kLateWheel:
     case Kind::kLateTop:
+    case Kind::kLateTops:
     case Kind::kLateBody: return std::abs(size) > kLeastDelay;
     case Kind::kAhead:
     case Kind::kSide:
@@ -148,8 +150,8 @@ void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
       all.push_back(
           {Kind::kLateTop, {i, i}, kDelays, [at, n = n_](double size, Mapping& m) { m.delays[n + at] = size; }});
   }
-  if (!places_.empty())
-    all.push_back({Kind::kLateBody, {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
+  const Kind all_tops = places_.empty() ? Kind::kLateTops : Kind::kLateBody;
+  all.push_back({all_tops, {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
 }
 
 }  // namespace suspension_health_monitor

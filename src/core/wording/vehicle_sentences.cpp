@@ -48,10 +48,11 @@ std::string describe(const VehicleMistake& mistake, const std::vector<std::strin
     return formatted("with %+.2f m (+- %.2f) in %s of all positions they do: the body's IMU stands elsewhere",
                      mistake.size, mistake.stddev, axis);
   };
-  const auto late = [&](const std::string& sensor) {
-    return formatted("with the stamps of %s %.1f ms (+- %.1f) %s they do: its clock, its driver's delay",
-                     sensor.c_str(), 1000.0 * std::abs(mistake.size), 1000.0 * mistake.stddev,
-                     mistake.size > 0.0 ? "earlier" : "later");
+  const std::string by = mistake.size > 0.0 ? "earlier" : "later", other = mistake.size > 0.0 ? "later" : "earlier";
+  const auto late = [&](const std::string& sensor, const std::string& or_else = "") {
+    return formatted("with the stamps of %s %.1f ms (+- %.1f) %s%s they do: its clock, its driver's delay",
+                     sensor.c_str(), 1000.0 * std::abs(mistake.size), 1000.0 * mistake.stddev, by.c_str(),
+                     or_else.c_str());
   };
   const std::string all = "all positions", of_first = "the position of " + first;
   switch (mistake.kind) {
@@ -74,6 +75,7 @@ std::string describe(const VehicleMistake& mistake, const std::vector<std::strin
     case Kind::kShiftSide: return shifted("y");
     case Kind::kLateWheel: return late("the wheel of " + first);
     case Kind::kLateTop: return late("the sprung IMU of " + first);
+    case Kind::kLateTops: return late("all sprung IMUs", ", or those of all wheels as much " + other + ",");
     case Kind::kLateBody: return late("the body's IMU");
     case Kind::kDeadGyro:
       return "the body's IMU tells of no pitch or no roll, though the wheels differ: dead gyro, wrong axis, or wrong "

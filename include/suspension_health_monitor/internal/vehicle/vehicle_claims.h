@@ -28,6 +28,7 @@ struct VehicleMistake {
     kShiftSide,   ///< y of the body's IMU
     kLateWheel,   ///< the stamps of a wheel's sensor
     kLateTop,     ///< those of the sensor at a strut top
+    kLateTops,    ///< those of all sensors at strut tops; of all wheels' the other way
     kLateBody,    ///< those of the body's IMU
     kDeadGyro,    ///< of the body's IMU, in pitch or roll: it turns less than any body on struts
     kOthers,      ///< no such mistake explains how the tops move
