@@ -89,6 +89,9 @@ def cases(struts, body):
     for ms in (3, 10, 30):
         for role in (top, first + "/wheel"):
             yield f"{ms} ms late {role}", {role: late(ms / 1000)}, None, r"late|delay|clock", r"ms"
+    for ms in (1, 3, 10, 30):
+        all_wheels = {f"{strut}/wheel": late(ms / 1000) for strut in struts}
+        yield f"{ms} ms late all wheels", all_wheels, None, r"late|delay|clock", r"ms"
     if body:
         axes = [("dead in x", dead((0,)))] if sides else []  # that nothing else rolls about
         for name, change in axes + [("dead", dead((0, 1, 2))), ("dead in y", dead((1,))),

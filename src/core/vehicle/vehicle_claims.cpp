@@ -17,6 +17,7 @@ constexpr double kBetter = 0.5;  // of what the file leaves beyond noise
 constexpr double kNoiseKnownTo = 0.1;  // of its mean: with it 300 numbers, of all bins, rows and columns
 constexpr double kFits = 0.2;          // of the tops' motion, that a file which is right leaves at most
 constexpr double kMuch = 0.02;         // that goes with the wheels, and no strut of theirs makes; links make 0.003
+constexpr double kCosts = 0.05;        // of b1 or b0: less is not worth a word
 constexpr int kRefinements = 3;
 
 double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j) {
@@ -76,7 +77,7 @@ Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
   return sum;
 }
 
-double VehicleClaims::unexplained(const Mapping& mapping, const Eigen::MatrixXd& moments) const {
+VehicleClaims::Rows VehicleClaims::fit(const Mapping& mapping, const Eigen::MatrixXd& moments) const {
   const Eigen::MatrixXd travel = mapping.wheels - mapping.tops;
   const Eigen::Index regressors = 2 * n_ + forces_;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(regressors + n_, moments.rows());
@@ -90,13 +91,16 @@ double VehicleClaims::unexplained(const Mapping& mapping, const Eigen::MatrixXd&
       products.topLeftCorner(regressors, regressors).completeOrthogonalDecomposition().solve(scores);
   const Eigen::ArrayXd total = products.diagonal().tail(n_).array();
   const Eigen::ArrayXd explained = (scores.array() * rows.array()).colwise().sum().transpose();
-  return (total > 0.0).select(1.0 - explained / total, 1.0).mean();
+  Rows result{(total > 0.0).select(1.0 - explained / total, 1.0).mean(), Eigen::ArrayXXd(n_, 2)};
+  result.own.col(0) = rows.topRows(n_).diagonal();
+  result.own.col(1) = rows.middleRows(n_, n_).diagonal();
+  return result;
 }
 
-double VehicleClaims::unexplained(const Hypothesis& hypothesis, double size) const {
+VehicleClaims::Rows VehicleClaims::fit(const Hypothesis& hypothesis, double size) const {
   Mapping mapping = asFiled();
   hypothesis.apply(size, mapping);
-  return unexplained(mapping, mapping.delays.isZero() ? in_step_ : moments(mapping.delays));
+  return fit(mapping, mapping.delays.isZero() ? in_step_ : moments(mapping.delays));
 }
 
 // The best size by a parabola through the best of those to begin with and its neighbours, then closer and closer.
@@ -104,18 +108,19 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
   VehicleMistake found{hypothesis.kind, hypothesis.struts};
   const std::vector<double>& sizes = hypothesis.sizes;
   std::vector<double> left;
-  for (const double size : sizes) left.push_back(unexplained(hypothesis, size));
+  for (const double size : sizes) left.push_back(fit(hypothesis, size).unexplained);
   const auto best = std::min_element(left.begin(), left.end()) - left.begin();
   found.size = sizes[static_cast<std::size_t>(best)];
   found.unexplained = left[static_cast<std::size_t>(best)];
   if (sizes.size() == 1) return found;
   double step = sizes[1] - sizes[0], curvature = 0.0;
   for (int i = 0; i < kRefinements; ++i, step *= 0.5) {
-    const double below = unexplained(hypothesis, found.size - step), above = unexplained(hypothesis, found.size + step);
+    const double below = fit(hypothesis, found.size - step).unexplained,
+                 above = fit(hypothesis, found.size + step).unexplained;
     curvature = (below + above - 2.0 * found.unexplained) / (step * step);
     if (!(curvature > 0.0)) break;
     found.size = std::clamp(found.size + (below - above) / (2.0 * curvature * step), sizes.front(), sizes.back());
-    found.unexplained = unexplained(hypothesis, found.size);
+    found.unexplained = fit(hypothesis, found.size).unexplained;
   }
   // Without a minimum, or with one at an end of the range, it is something else.
   if (!(curvature > 0.0) || found.size <= sizes.front() || found.size >= sizes.back()) {
@@ -162,7 +167,8 @@ bool VehicleClaims::work() {
   else
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
-  if (found_.kind == Kind::kNone && filed_ > std::max(kMuch, noiseShare() * noise_)) found_.kind = Kind::kOthers;
+  if (found_.kind == Kind::kNone && filed_.unexplained > std::max(kMuch, noiseShare() * noise_))
+    found_.kind = Kind::kOthers;
   return true;
 }
 
@@ -194,9 +200,9 @@ void VehicleClaims::takeBin(std::size_t bin) {
 
 void VehicleClaims::judgeAsFiled() {
   const Mapping filed = asFiled();
-  found_.unexplained = unexplained(filed, measured_);
-  filed_ = unexplained(filed, in_step_);
-  noise_ = std::max(0.0, found_.unexplained - filed_);
+  found_.unexplained = fit(filed, measured_).unexplained;
+  filed_ = fit(filed, in_step_);
+  noise_ = std::max(0.0, found_.unexplained - filed_.unexplained);
   least_ = kFits;
   hypotheses_ = hypotheses();
 }
@@ -204,8 +210,9 @@ void VehicleClaims::judgeAsFiled() {
 void VehicleClaims::judge(const Hypothesis& hypothesis) {
   VehicleMistake other = attempt(hypothesis);
   const double slack = kNoiseKnownTo * noiseShare() * noise_;
-  if (!(other.unexplained < least_) || !other.isLarge() || !(other.unexplained + slack < kBetter * (filed_ + slack)))
-    return;
+  if (!(other.unexplained < least_) || !(other.unexplained + slack < kBetter * (filed_.unexplained + slack))) return;
+  other.moved = (fit(hypothesis, other.size).own / filed_.own - 1.0).abs().maxCoeff();
+  if (!(other.moved > kCosts)) return;
   least_ = other.unexplained;
   other.unexplained = found_.unexplained;
   found_ = other;

@@ -43,32 +43,16 @@ Eigen::MatrixXd motionsOf(const StrutPlaces& places) {
 }  // namespace
 
 bool VehicleMistake::isContradiction() const {
+  constexpr double kEstimated = 0.0025;  // [s], twice what kLeastPhase of the blocks lets in
   switch (kind) {
     case Kind::kNone:
     case Kind::kTooLittle:
     case Kind::kAlike:
-    case Kind::kLateWheel:
-    case Kind::kLateTop:
-    case Kind::kLateTops:
-    case Kind::kLateBody:
     case Kind::kOthers: return false;
-    default: return true;
-  }
-}
-
-bool VehicleMistake::isLarge() const {
-  constexpr double kLeastDelay = 0.0025, kLeastScale = 0.05, kLeastShift = 0.03;  // [s], [-], [m]
-  switch (kind) {
     case Kind::kLateWheel:
     case Kind::kLateTop:
     case Kind::kLateTops:
-    case Kind::kLateBody: return std::abs(size) > kLeastDelay;
-    case Kind::kAhead:
-    case Kind::kSide:
-    case Kind::kAheadOfOne:
-    case Kind::kSideOfOne: return std::abs(size - 1.0) > kLeastScale;
-    case Kind::kShiftAhead:
-    case Kind::kShiftSide: return std::abs(size) > kLeastShift;
+    case Kind::kLateBody: return std::abs(size) < kEstimated;
     default: return true;
   }
 }

@@ -38,12 +38,12 @@ struct VehicleMistake {
   double size = 0.0;         ///< what times the file's positions, what added to them [m], by how much late [s]
   double stddev = 0.0;       ///< of size
   double unexplained = 0.0;  ///< share of the tops' motion that the file as it stands leaves [-]
+  double moved = 0.0;        ///< by how much it moves b1 or b0 of a strut, the largest [-]
 
-  /// @return true: what is estimated of any strut with this file is wrong. Delays are among what is estimated, and what
-  /// no mistake explains is an error of the model (BodyFit).
+  /// @return true: what is estimated of any strut with this file is wrong. A delay that is no longer small against
+  /// what links do to phases is among what is estimated, and what no mistake explains is an error of the model
+  /// (BodyFit).
   bool isContradiction() const;
-  /// @return false: it costs less than the model's error does.
-  bool isLarge() const;
 };
 
 /// Products of all wheels' and tops' spectra, summed over blocks, by which every mistake is judged: for each, the rows
@@ -96,8 +96,13 @@ class VehicleClaims {
   bool hasDeadGyro() const;
   Mapping asFiled() const;
   Eigen::MatrixXd moments(const Eigen::VectorXd& delays) const;
-  double unexplained(const Mapping& mapping, const Eigen::MatrixXd& moments) const;
-  double unexplained(const Hypothesis& hypothesis, double size) const;
+  /// The rows (B20) of the tops by least squares.
+  struct Rows {
+    double unexplained;   ///< mean over the tops of the share of z'' that they leave
+    Eigen::ArrayXXd own;  ///< b1_ii, b0_ii, by strut
+  };
+  Rows fit(const Mapping& mapping, const Eigen::MatrixXd& moments) const;
+  Rows fit(const Hypothesis& hypothesis, double size) const;
   VehicleMistake attempt(const Hypothesis& hypothesis) const;
   std::vector<Hypothesis> hypotheses() const;
   void addPositions(std::vector<Hypothesis>& all) const;
@@ -114,7 +119,7 @@ class VehicleClaims {
   Eigen::MatrixXd measured_, in_step_;      // sums over bins: of all that was measured, of products_
   std::vector<Hypothesis> hypotheses_;
   std::size_t next_ = 0;  // bin, then hypothesis
-  double filed_ = 0.0;    // share of what goes with the wheels that the file leaves
+  Rows filed_{1.0, {}};   // of what goes with the wheels, by the file
   double noise_ = 0.0;    // share of the tops' motion that does not go with the wheels
   double least_ = 0.0;    // that a hypothesis leaves
   int blocks_ = 0;
