@@ -8,7 +8,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in a block
+constexpr double kLeastUpperEdge = 2.5, kMostPeriods = 6.0;  // of the bounce in a block; 1.6 of a usual one
+constexpr double kUsualDamping = 0.6;                        // b1 over the bounce: a damping ratio of 0.3
+constexpr double kFewestReadings = 33.0;                     // of a block: fewer are a gap each, see FourierIntegrals
 // Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
 // the information.
 constexpr double kStaleRows = 0.1;
@@ -28,14 +30,15 @@ VehicleBlocks::VehicleBlocks(const VehicleTops& tops, const BlockOptions& option
       options_(options),
       period_(period),
       length_(options.length),
-      columns_{static_cast<int>(tops.known_forces) + (tops.looks_for_friction ? 1 : 0),
+      columns_{static_cast<int>(tops.known_forces + std::max<std::size_t>(tops.effects, 1)),
                2 * (static_cast<int>(checked(tops)) - 1)},
       estimates_(tops.size()),
       has_(tops.size(), false),
       blocks_(tops.size()),
-      last_(2 * tops.size() + tops.known_forces + 1),
+      last_(2 * tops.size() + tops.known_forces + 2),
       modulation_(BlockBand(length_, period)) {
   for (std::size_t i = 0; i < tops.size(); ++i) estimates_[i].strut = i;
+  while (length_ < kFewestReadings * period_) length_ *= 2.0;
   begin(length_);
 }
 
@@ -47,13 +50,15 @@ void VehicleBlocks::begin(double length) {
   modulation_ = Modulation(band);
   spectra_.emplace(band, tops_);
   friction_.assign(tops_.size(), SlidingFriction::ofBlocks(length));
+  // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
+  const double bounce = 2.0 * M_PI * std::sqrt(kLeastUpperEdge / (1.0 + kUsualDamping) * kMostPeriods) / length;
+  for (SlidingFriction& each : friction_) each.setStrut(kUsualDamping * bounce, bounce * bounce, 0.0);
   for (std::size_t i = 0; i < tops_.size(); ++i) {
     estimators_.emplace_back(band, columns_, options_);
     if (!before.empty() && before[i].hasTheta()) estimators_[i].begin(before[i].theta(), before[i].slowPrior());
   }
-  model_.emplace(band, tops_.size(), tops_.known_forces);
-  rows_ = model_->rows();
-  has_model_ = false;
+  has_model_ = isAlone();
+  if (!isAlone()) rows_ = model_.emplace(band, tops_.size(), tops_.known_forces).rows();
   const auto n = static_cast<Eigen::Index>(tops_.size());
   motions_.setZero(band.size(), 2 * n);
   motion_.resize(band.size());
@@ -66,7 +71,8 @@ void VehicleBlocks::begin(double length) {
 void VehicleBlocks::restart() {
   for (BlockEstimator& each : estimators_) each.restart();
   for (SlidingFriction& each : friction_) each.restart();
-  spectra_.emplace(BlockBand(length_, period_), tops_);
+  spectra_->restart();
+  has_.assign(has_.size(), false);
   last_.assign(last_.size(), std::nullopt);
   origin_.reset();
   to_update_ = tops_.size();
@@ -99,7 +105,7 @@ const TopEstimate* VehicleBlocks::pushWheel(std::size_t strut, Stamp stamp, doub
   const auto time = timeOf(strut, stamp);
   if (!time) return nullptr;
   double direction = 0.0;
-  if (tops_.looks_for_friction) {
+  if (tops_.looksForFriction()) {
     const BlockEstimator& estimator = estimators_[strut];
     const BlockVector& theta = estimator.theta();
     if (estimator.hasTheta())
@@ -119,7 +125,7 @@ const TopEstimate* VehicleBlocks::pushTop(std::size_t strut, Stamp stamp, double
 
 const TopEstimate* VehicleBlocks::pushBody(Stamp stamp, const Eigen::Vector3d& acceleration,
                                            const Eigen::Vector3d& rate) {
-  const auto time = timeOf(last_.size() - 1, stamp);
+  const auto time = timeOf(last_.size() - 2, stamp);
   if (!time) return nullptr;
   spectra_->pushBody(*time, acceleration, rate);
   return work();
@@ -132,11 +138,27 @@ const TopEstimate* VehicleBlocks::pushForce(std::size_t force, Stamp stamp, doub
   return work();
 }
 
-// One portion per reading.
+const TopEstimate* VehicleBlocks::pushEffects(Stamp stamp, const double* forces) {
+  const auto time = timeOf(last_.size() - 1, stamp);
+  if (!time) return nullptr;
+  spectra_->pushEffects(*time, forces);
+  return work();
+}
+
+const TopEstimate* VehicleBlocks::push(const CornerSample& sample, Stamp lag) {
+  if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) return nullptr;
+  const TopEstimate* of_body = pushTop(0, sample.stamp - lag, sample.sprung_acceleration);
+  const TopEstimate* of_wheel = pushWheel(0, sample.stamp, sample.unsprung_acceleration);
+  return of_wheel != nullptr ? of_wheel : of_body;
+}
+
+// One portion per reading; a strut alone takes no longer than a portion.
 const TopEstimate* VehicleBlocks::work() {
   if (to_update_ < tops_.size()) {
     const TopEstimate* found = update(to_update_++);
-    if (to_update_ == tops_.size()) finishRound();
+    if (to_update_ < tops_.size()) return found;
+    if (!isAlone()) updateModel();
+    if (found != nullptr || !isAlone()) follow();
     return found;
   }
   if (to_predict_ > 0) {
@@ -146,16 +168,24 @@ const TopEstimate* VehicleBlocks::work() {
   }
   // A stream that is silent holds the others up only as long as their half blocks are kept.
   next_half_ = std::max(next_half_, spectra_->newestOpen() - FourierIntegrals::kHalves + 2);
-  if (spectra_->isPassed(next_half_)) takeBlock();
-  return nullptr;
+  const TopEstimate* found = nullptr;
+  while (spectra_->isPassed(next_half_)) {
+    takeBlock();
+    if (!isAlone()) break;
+    if (to_update_ == 0)
+      if (const TopEstimate* newest = work()) found = newest;
+  }
+  return found;
 }
 
 void VehicleBlocks::takeBlock() {
   const long half = next_half_++;
   if (!spectra_->isWhole(half)) return;
   for (std::size_t i = 0; i < tops_.size(); ++i) spectra_->fill(i, half, estimators_[i].next());
-  fillNeighbours();
-  predict(0);
+  if (!isAlone()) {
+    fillNeighbours();
+    predict(0);
+  }
   newest_half_ = half;
   to_update_ = 0;
 }
@@ -206,7 +236,7 @@ const TopEstimate* VehicleBlocks::update(std::size_t strut) {
   TopEstimate& estimate = estimates_[strut];
   static_cast<WindowEstimate&>(estimate) = *found;
   estimate.length = length_;
-  if (tops_.looks_for_friction) estimate.friction = found->theta[columns_.firstForce()];
+  if (tops_.looksForFriction()) estimate.friction = found->theta[columns_.firstForce()];
   estimate.stamp = *origin_ + fromSeconds(static_cast<double>(newest_half_ + 1) * length_ / 2.0);
   has_[strut] = true;
   return &estimate;
@@ -228,7 +258,7 @@ void VehicleBlocks::scaleNeighbours(std::size_t strut) {
 }
 
 // All tops are up to date: so may be the model of them all.
-void VehicleBlocks::finishRound() {
+void VehicleBlocks::updateModel() {
   for (const BlockEstimator& each : estimators_)
     if (!each.hasTheta()) return;
   const std::size_t n = tops_.size();
@@ -258,20 +288,23 @@ void VehicleBlocks::finishRound() {
     for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
     to_predict_ = estimators_.front().count();
   }
-  follow();
 }
 
-// As StrutBlocks does for one strut: by the struts that have an estimate.
+// Blocks that are too short lose the bounce below their lowest bin, of two periods in a block, the more of it the
+// sharper its resonance is; in blocks of more than kMostPeriods it is in few bins of many, and they are slower than
+// they need to be. The strut that bounces slowest decides.
 void VehicleBlocks::follow() {
-  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  double periods = std::numeric_limits<double>::infinity(), upper_edge = periods;
   for (const BlockEstimator& each : estimators_) {
-    const double periods = length_ * std::sqrt(each.theta()[kBlockStiffness]) / (2.0 * M_PI);
-    slowest = std::min(slowest, periods);
-    fastest = std::max(fastest, periods);
+    if (!each.hasTheta()) return;
+    const double bounce = std::sqrt(each.theta()[kBlockStiffness]), own = length_ * bounce / (2.0 * M_PI);
+    periods = std::min(periods, own);
+    // of the resonance, its width above its peak
+    upper_edge = std::min(upper_edge, own * (1.0 + each.theta()[kBlockDamping] / bounce));
   }
-  if (slowest < kFewestPeriods)
+  if (upper_edge < kLeastUpperEdge)
     begin(2.0 * length_);
-  else if (slowest > kMostPeriods)
+  else if (periods > kMostPeriods && length_ >= 2.0 * kFewestReadings * period_)
     begin(0.5 * length_);
 }
 

@@ -7,12 +7,14 @@
 namespace suspension_health_monitor {
 
 std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
-  if (!has_model_ || !has_[strut]) return std::nullopt;
+  if (!has_model_) return std::nullopt;
   const std::optional<WindowEstimate> of_drive = estimators_[strut].overTheDrive();
   const auto& all = estimators_[strut].ofAllBlocks();
-  if (!of_drive || !all) return std::nullopt;
+  if (!of_drive || (!all && !isAlone())) return std::nullopt;
   TopEstimate result = estimates_[strut];
   static_cast<WindowEstimate&>(result) = *of_drive;
+  result.length = length_;
+  if (isAlone()) return result;
   // Noise of wheels that move alike draws every block the same way: more blocks do not help.
   result.alike = std::max(result.alike, all->alike);
   for (const int i : {kBlockDamping, kBlockStiffness})
@@ -40,7 +42,7 @@ void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, Bo
     const int at = columnOf(strut, j);
     selection(static_cast<Eigen::Index>(j), at) = selection(n + static_cast<Eigen::Index>(j), at + 1) = 1.0;
   }
-  if (tops_.looks_for_friction) selection(i, columns_.firstForce()) = estimate.frictionGain();
+  if (tops_.looksForFriction()) selection(i, columns_.firstForce()) = estimate.frictionGain();
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate.theta;
   rows.rate.row(i) = row.head(n).transpose();
   rows.travel.row(i) = row.tail(n).transpose();

@@ -7,12 +7,13 @@ namespace suspension_health_monitor {
 VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleTops& tops)
     : band_(band), tops_(tops), modulation_(band), channel_(band.spectrumSize()), derivative_(band.size()) {
   for (const VehicleTops::Top& top : tops.tops) {
-    wheels_.emplace_back(band, tops.looks_for_friction ? 2 : 1);
+    wheels_.emplace_back(band, tops.looksForFriction() ? 2 : 1);
     own_of_.push_back(own_.size());
     if (top.has_own) own_.emplace_back(band, 1);
   }
   if (tops.needsBody()) body_.emplace_back(band, kBodyChannels);
   for (std::size_t i = 0; i < tops.known_forces; ++i) forces_.emplace_back(band, 1);
+  if (tops.effects > 0) effects_.emplace_back(band, tops.effects);
 }
 
 void VehicleSpectra::pushWheel(std::size_t strut, double time, double acceleration, double direction) {
@@ -37,25 +38,32 @@ void VehicleSpectra::pushBody(double time, const Eigen::Vector3d& acceleration, 
 
 void VehicleSpectra::pushForce(std::size_t force, double time, double value) { forces_[force].push(time, &value); }
 
+void VehicleSpectra::pushEffects(double time, const double* forces) { effects_.front().push(time, forces); }
+
+void VehicleSpectra::restart() {
+  for (auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
+    for (FourierIntegrals& stream : *streams) stream.restart();
+}
+
+template <class Predicate>
+bool VehicleSpectra::areAll(const Predicate& predicate) const {
+  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
+    if (!std::all_of(streams->begin(), streams->end(), predicate)) return false;
+  return true;
+}
+
 bool VehicleSpectra::isPassed(long half) const {
-  const auto are = [&](const std::vector<FourierIntegrals>& streams) {
-    return std::all_of(streams.begin(), streams.end(), [&](const auto& stream) { return stream.openHalf() > half; });
-  };
-  return are(wheels_) && are(own_) && are(body_) && are(forces_);
+  return areAll([&](const FourierIntegrals& stream) { return stream.openHalf() > half; });
 }
 
 bool VehicleSpectra::isWhole(long half) const {
-  const auto are = [&](const std::vector<FourierIntegrals>& streams) {
-    return std::all_of(streams.begin(), streams.end(), [&](const auto& stream) {
-      return stream.half(half - 1) != nullptr && stream.half(half) != nullptr;
-    });
-  };
-  return are(wheels_) && are(own_) && are(body_) && are(forces_);
+  return areAll(
+      [&](const FourierIntegrals& stream) { return stream.half(half - 1) != nullptr && stream.half(half) != nullptr; });
 }
 
 long VehicleSpectra::newestOpen() const {
   long newest = 0;
-  for (const auto* streams : {&wheels_, &own_, &body_, &forces_})
+  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
     for (const FourierIntegrals& stream : *streams) newest = std::max(newest, stream.openHalf());
   return newest;
 }
@@ -68,7 +76,8 @@ void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
     stream.sumHalves(half, channel, channel_);
     block.forces.col(column++) = channel_;
   };
-  if (tops_.looks_for_friction) fillForce(wheels_[strut], 1);
+  if (tops_.looksForFriction()) fillForce(wheels_[strut], 1);
+  for (std::size_t m = 0; m < tops_.effects; ++m) fillForce(effects_.front(), static_cast<Eigen::Index>(m));
   for (const FourierIntegrals& force : forces_) fillForce(force, 0);
   if (!tops_.tops[strut].has_own) return fillByBody(*tops_.tops[strut].position, half, block);
   own_[own_of_[strut]].sumHalves(half, 0, channel_);

@@ -19,6 +19,12 @@ struct VehicleReading {
   std::array<double, 6> values;
 };
 
+/// What an accelerometer of a strut alone read [m/s^2].
+inline VehicleReading readingOf(Side side, Stamp stamp, double acceleration) {
+  using Sensor = VehicleReading::Sensor;
+  return {side == Side::kUnsprung ? Sensor::kWheel : Sensor::kTop, 0, stamp, {acceleration}};
+}
+
 /// Calls take(reading) for every reading of an instant, of struts that have two accelerometers each.
 template <class Take>
 void forReadings(const VehicleSample& sample, const Take& take) {

@@ -28,6 +28,10 @@ class VehicleSpectra {
   void pushTop(std::size_t strut, double time, double acceleration);
   void pushBody(double time, const Eigen::Vector3d& acceleration, const Eigen::Vector3d& rate);
   void pushForce(std::size_t force, double time, double value);
+  void pushEffects(double time, const double* forces);
+
+  /// The next reading of every stream is its first one.
+  void restart();
 
   /// @return true if all streams are beyond this half block.
   bool isPassed(long half) const;
@@ -42,12 +46,15 @@ class VehicleSpectra {
  private:
   enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };
 
+  /// @return true if it is true of every stream.
+  template <class Predicate>
+  bool areAll(const Predicate& predicate) const;
   void fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block);
 
   BlockBand band_;
   VehicleTops tops_;
   Modulation modulation_;
-  std::vector<FourierIntegrals> wheels_, own_, body_, forces_;
+  std::vector<FourierIntegrals> wheels_, own_, body_, forces_, effects_;
   std::vector<std::size_t> own_of_;  // by strut, in own_
   Eigen::ArrayXcd channel_, derivative_;
 };

@@ -16,11 +16,15 @@ struct VehicleTops {
     std::optional<Eigen::Vector3d> position;  ///< from the body's IMU, x ahead, y to the left, z up [m]
   };
 
-  std::vector<Top> tops;           ///< by strut, two or more
-  std::size_t known_forces = 0;    ///< that are measured
-  bool looks_for_friction = true;  ///< of every strut; else it has no such column
+  std::vector<Top> tops;         ///< by strut
+  std::size_t known_forces = 0;  ///< that are measured
+  std::size_t effects = 0;       ///< of a strut alone, whose forces are columns; none: dry friction is, of every strut
+
+  /// @param effects  of the strut.
+  static VehicleTops ofOne(std::size_t effects = 0) { return {{Top()}, 0, effects}; }
 
   std::size_t size() const { return tops.size(); }
+  bool looksForFriction() const { return effects == 0; }
   /// @return x, y by strut; empty unless every strut has a position.
   std::vector<std::array<double, 2>> places() const {
     std::vector<std::array<double, 2>> result;
