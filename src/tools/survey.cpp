@@ -46,7 +46,7 @@ struct Survey {
 };
 
 Survey survey(const BagOptions& options) {
-  VehicleBlocks blocks(VehicleTops::ofOne(), {}, options.period());
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, options.period());
   std::optional<RoughStrut> rough;
   Drive drive;
   const auto take = [&](const VehicleSample& of_vehicle) {

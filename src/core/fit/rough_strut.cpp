@@ -23,7 +23,7 @@ constexpr Trial kTrials[] = {{1.0, 0.0}, {1.0, kLag}, {1.0, -kLag}, {1.0, 2.0 * 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
   BlockOptions options;
   options.length = length;
-  VehicleBlocks blocks(VehicleTops::ofOne(), options, period);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), options, period);
   for (const Drive& drive : drives) {
     blocks.restart();
     for (const CornerSample& sample : drive.samples) blocks.push(sample, fromSeconds(lag));

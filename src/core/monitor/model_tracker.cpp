@@ -80,7 +80,7 @@ ModelTracker::ModelTracker(const MonitorSettings& options, bool has_own_blocks)
       identifier_(options),
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
-  if (has_own_blocks) blocks_.emplace(VehicleTops::ofOne(), block_options_, period_);
+  if (has_own_blocks) blocks_.emplace(VehicleChannels::ofAccelerometers(), block_options_, period_);
 }
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut,
@@ -88,7 +88,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
   identifier_.changeEffects(columns);
-  blocks_.emplace(VehicleTops::ofOne(effects.size()), block_options_, period_);
+  blocks_.emplace(VehicleChannels::ofAccelerometers(), block_options_, period_, effects.size());
   newest_.reset();
   has_own_model_ = is_given_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
   starts_.clear();

@@ -15,7 +15,6 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_spectra.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
 
 namespace suspension_health_monitor {
 
@@ -48,19 +47,16 @@ struct TopEstimate : WindowEstimate {
 class VehicleBlocks {
  public:
   /// @param period  the longest sampling time of the streams [s].
-  VehicleBlocks(const VehicleTops& tops, const BlockOptions& options, double period);
+  /// @param effects  of a strut alone, whose forces are columns (pushEffects()); 0: dry friction is, of every strut.
+  VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions& options, double period, std::size_t effects = 0);
 
-  /// Take in one reading [m/s^2], [rad/s]. Where the stamps of a sensor go back the blocks begin anew (restart()).
+  /// Takes in one reading. Where the stamps of a sensor go back the blocks begin anew (restart()).
   /// @return an estimate that is new; nullptr: none is.
   const TopEstimate* push(const VehicleReading& reading);
   /// All readings of an instant, of struts that have two accelerometers each.
   void push(const VehicleSample& sample) {
     forReadings(sample, [this](const VehicleReading& reading) { push(reading); });
   }
-  const TopEstimate* pushWheel(std::size_t strut, Stamp stamp, double acceleration);
-  const TopEstimate* pushTop(std::size_t strut, Stamp stamp, double acceleration);
-  const TopEstimate* pushBody(Stamp stamp, const Eigen::Vector3d& acceleration, const Eigen::Vector3d& rate);
-  const TopEstimate* pushForce(std::size_t force, Stamp stamp, double value);
   /// The effects' forces over the body's mass at one instant, by their present coefficients' unit.
   const TopEstimate* pushEffects(Stamp stamp, const double* forces);
   /// What both sensors of a strut alone read at one instant, if both are numbers.
@@ -84,11 +80,11 @@ class VehicleBlocks {
   std::vector<BodyRows> rowsOfHalves();
 
   const BlockEstimator& estimator(std::size_t strut = 0) const { return estimators_[strut]; }
-  const VehicleTops& tops() const { return tops_; }
+  const VehicleChannels& vehicle() const { return vehicle_; }
   double length() const { return length_; }  ///< T of the blocks [s]
 
   /// @return what the blocks kept say of the vehicle file, to be worked through. Allocates.
-  VehicleClaims claims() const { return claims(tops_.areOfBody() ? tops_.places() : StrutPlaces{}); }
+  VehicleClaims claims() const { return claims(isByBody() ? vehicle_.places() : StrutPlaces{}); }
   /// @param of_body_imu  where the tops are, if what is given as theirs was made of the body's IMU; else empty.
   VehicleClaims claims(const StrutPlaces& of_body_imu) const;
 
@@ -97,14 +93,17 @@ class VehicleBlocks {
 
  private:
   void begin(double length);
-  bool isAlone() const { return tops_.size() == 1; }
+  std::size_t size() const { return vehicle_.struts.size(); }
+  bool isAlone() const { return size() == 1; }
+  bool isByBody() const { return vehicle_.numTopsOfBody() == size(); }
+  bool looksForFriction() const { return effects_ == 0; }
   /// Column of the travel rate of strut j in the row of strut i; that of its travel is the next.
   int columnOf(std::size_t i, std::size_t j) const {
     return j == i ? int{kBlockDamping} : columns_.firstNeighbour() + neighbourColumn(i, j);
   }
   /// Of the known forces, among the forces' columns.
-  int firstKnownForce() const { return columns_.forces - static_cast<int>(tops_.known_forces); }
-  std::optional<double> timeOf(std::size_t sensor, Stamp stamp);
+  int firstKnownForce() const { return columns_.forces - static_cast<int>(vehicle_.known_forces.size()); }
+  std::optional<double> timeOf(std::size_t stream, Stamp stamp);
   const TopEstimate* work();
   void takeBlock();
   void fillNeighbours();
@@ -116,7 +115,8 @@ class VehicleBlocks {
   void setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
   void follow();
 
-  VehicleTops tops_;
+  VehicleChannels vehicle_;
+  std::size_t effects_;
   BlockOptions options_;
   double period_, length_;
   BlockColumns columns_;
@@ -128,7 +128,7 @@ class VehicleBlocks {
   std::vector<TopEstimate> estimates_;
   std::vector<bool> has_;
   std::vector<const StrutBlock*> blocks_;
-  std::vector<std::optional<Stamp>> last_;  // by sensor: wheels, tops, forces, the body's IMU
+  std::vector<std::optional<Stamp>> last_;  // by Sensor and place; then of the effects
   Modulation modulation_;
   Eigen::ArrayXXcd motions_;  // H_1, H_0 of every w'' - z''
   Eigen::ArrayXcd motion_;    // H_1 or H_0 of one w''
