@@ -70,16 +70,19 @@ double cpuMicroseconds() {
 }
 
 Run run(const Case& test) {
+  using Sensor = VehicleReading::Sensor;
   const std::size_t n = test.places.size();
-  VehicleTops tops;
-  for (const Eigen::Vector3d& position : test.positions) tops.tops.push_back({!test.by_body, position});
-  tops.known_forces = test.has_force ? 1 : 0;
-  VehicleBlocks blocks(tops, BlockOptions{}, test.instants[1].time - test.instants[0].time);
+  VehicleChannels vehicle = VehicleChannels::ofAccelerometers(n, test.has_force ? 1 : 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    vehicle.struts[i].position = test.positions[i];
+    if (test.by_body) vehicle.struts[i].sprung.reset();
+  }
+  VehicleBlocks blocks(vehicle, BlockOptions{}, test.instants[1].time - test.instants[0].time);
   Run result;
   result.told.resize(n);
-  const auto taken = [&](auto&& push, double time) {
+  const auto taken = [&](const VehicleReading& reading, double time) {
     const double before = cpuMicroseconds();
-    const TopEstimate* estimate = push();
+    const TopEstimate* estimate = blocks.push(reading);
     const double cost = cpuMicroseconds() - before;
     result.worst = std::max(result.worst, cost);
     result.total += cost;
@@ -93,11 +96,16 @@ Run run(const Case& test) {
   for (const Instant& now : test.instants) {
     const Stamp stamp = fromSeconds(1.0 + now.time);
     for (std::size_t i = 0; i < n; ++i) {
-      if (!test.by_body) taken([&] { return blocks.pushTop(i, stamp, now.tops[i]); }, now.time);
-      taken([&] { return blocks.pushWheel(i, stamp, now.wheels[i]); }, now.time);
+      if (!test.by_body) taken({Sensor::kTop, i, stamp, {now.tops[i]}}, now.time);
+      taken({Sensor::kWheel, i, stamp, {now.wheels[i]}}, now.time);
     }
-    if (test.by_body) taken([&] { return blocks.pushBody(stamp, now.acceleration, now.rate); }, now.time);
-    if (test.has_force) taken([&] { return blocks.pushForce(0, stamp, now.force); }, now.time);
+    if (test.by_body) {
+      VehicleReading reading{Sensor::kBody, 0, stamp, {}};
+      std::copy_n(now.acceleration.data(), 3, reading.values.begin());
+      std::copy_n(now.rate.data(), 3, reading.values.begin() + 3);
+      taken(reading, now.time);
+    }
+    if (test.has_force) taken({Sensor::kForce, 0, stamp, {now.force}}, now.time);
     if (has_body || now.time < std::min(test.change_at - 1.0, test.instants.back().time - 1.0)) continue;
     has_body = true;
     for (std::size_t i = 0; i < n; ++i) result.all.push_back(blocks.overTheDrive(i));

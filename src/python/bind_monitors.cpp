@@ -68,7 +68,7 @@ class ArrayVehicle {
         grid_(
             *options.sample_period, streams_, MonitorSettings(options).grid(*options.sample_period),
             [this](const VehicleSample& sample) { monitor_.addGridSample(sample); },
-            [this](const VehicleReading& reading) { monitor_.addReading(grid_.tops(), reading); }),
+            [this](const VehicleReading& reading) { monitor_.addReading(grid_.vehicle(), reading); }),
         monitor_(std::vector<MonitorSettings>(struts.size(), MonitorSettings(options)),
                  [](std::size_t, const MonitorReport&) {}) {}
 

@@ -45,7 +45,7 @@ void setBars(const std::vector<BodyFitResult::Bar>& bars, const std::vector<std:
 }
 
 StrutPlaces placesOf(const VehicleMonitor& monitor) {
-  return monitor.tops() != nullptr ? monitor.tops()->places() : StrutPlaces{};
+  return monitor.vehicle() != nullptr ? monitor.vehicle()->places() : StrutPlaces{};
 }
 
 CouplingInUse toMsg(const VehicleCoupling& coupling, const VehicleMonitor* monitor,

@@ -44,7 +44,7 @@ struct Found {
       const PipelineOptions& strut = options.settings.struts[i];
       changes.push_back(describeChange(vehicle.struts[i], knownHealthy(healthy[i], strut), strut.monitor));
     }
-    if (changes.size() > 1) body = inertiaOf(recorded.monitor().body(), recorded.monitor().tops()->places());
+    if (changes.size() > 1) body = inertiaOf(recorded.monitor().body(), recorded.monitor().vehicle()->places());
   }
 
   VehicleIdentification vehicle;

@@ -29,7 +29,7 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   const ReadSamples samples = readSamples(bag, options, layout, take);
   const VehicleGrid& grid = samples.grid;
   grid.describe(drive);
-  drive.places = grid.tops().places();
+  drive.places = grid.vehicle().places();
   read.num_instants = grid.numInstants();
   read.body_level = grid.bodyLevel();
   read.alignment = grid.streams().describeAlignment();

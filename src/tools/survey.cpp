@@ -46,13 +46,13 @@ struct Survey {
 };
 
 Survey survey(const BagOptions& options) {
-  StrutBlocks blocks({}, options.period());
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, options.period());
   std::optional<RoughStrut> rough;
   Drive drive;
   const auto take = [&](const VehicleSample& of_vehicle) {
     const CornerSample sample = of_vehicle.ofStrut(0);
     if (drive.samples.size() < kLookedAt) drive.samples.push_back(sample);
-    const BlockEstimate* estimate = blocks.push(sample);
+    const TopEstimate* estimate = blocks.push(sample);
     if (estimate != nullptr && estimate->worst() < kEnough) rough.emplace(*estimate);
     // A few blocks of a law with memory look as if the clocks differed, the whole drive does not.
     return !rough || rough->clocksDiffer(options.period());

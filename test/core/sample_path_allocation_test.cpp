@@ -14,7 +14,6 @@
 #include "block_drive.h"
 #include "paper_drive.h"
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/suspension_regression.h"
@@ -22,9 +21,10 @@
 #include "suspension_health_monitor/internal/model/user_effects.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
-#include "uniform_grid.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "uniform_grid.h"
 #include "vehicle_drive.h"
 
 namespace {
@@ -78,7 +78,7 @@ TEST(SamplePath, AllocatesNothingInTheBlocksOfAStrutOnceTheyKnowIt) {
   drive.seconds = 128.0;
   drive.body_noise = drive.wheel_noise = 0.5;
   const SampledStrut sampled = drive.sample();
-  StrutBlocks blocks({}, 1.0 / drive.rate);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
   // The first estimate is followed by what all blocks tell, from the eighth on.
   long before = 0;
   int estimates = 0;
@@ -88,7 +88,7 @@ TEST(SamplePath, AllocatesNothingInTheBlocksOfAStrutOnceTheyKnowIt) {
     if (t > 60.3 && t < 61.7) continue;  // a gap
     for (const Side side : {Side::kSprung, Side::kUnsprung}) {
       const double reading = (side == Side::kSprung ? sampled.body : sampled.wheel)[i];
-      if (blocks.push(side, fromSeconds(t), reading) != nullptr && t > 16.0) ++estimates;
+      if (blocks.push(readingOf(side, fromSeconds(t), reading)) != nullptr && t > 16.0) ++estimates;
     }
   }
   EXPECT_EQ(num_allocations, before);

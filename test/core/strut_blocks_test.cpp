@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,31 +5,27 @@
 #include <vector>
 
 #include "block_drive.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-struct Reading {
-  Side side;
-  Stamp stamp;
-  double acceleration;
-};
+using Sensor = VehicleReading::Sensor;
 
-std::vector<Reading> readingsOf(const SampledStrut& drive, double begin = 0.0) {
-  std::vector<Reading> result;
+std::vector<VehicleReading> readingsOf(const SampledStrut& drive, double begin = 0.0) {
+  std::vector<VehicleReading> result;
   for (std::size_t i = 0; i < drive.body.size(); ++i) {
     const Stamp stamp = fromSeconds(begin + static_cast<double>(i) / drive.rate);
-    result.push_back({Side::kSprung, stamp, drive.body[i]});
-    result.push_back({Side::kUnsprung, stamp, drive.wheel[i]});
+    result.push_back(readingOf(Side::kSprung, stamp, drive.body[i]));
+    result.push_back(readingOf(Side::kUnsprung, stamp, drive.wheel[i]));
   }
   return result;
 }
 
-std::vector<BlockEstimate> feed(StrutBlocks& blocks, const std::vector<Reading>& readings) {
-  std::vector<BlockEstimate> result;
-  for (const Reading& reading : readings)
-    if (const BlockEstimate* estimate = blocks.push(reading.side, reading.stamp, reading.acceleration))
-      result.push_back(*estimate);
+std::vector<TopEstimate> feed(VehicleBlocks& blocks, const std::vector<VehicleReading>& readings) {
+  std::vector<TopEstimate> result;
+  for (const VehicleReading& reading : readings)
+    if (const TopEstimate* estimate = blocks.push(reading)) result.push_back(*estimate);
   return result;
 }
 
@@ -65,13 +59,13 @@ SampledStrut withFriction(const NoisyDrive& drive, double friction) {
   return result;
 }
 
-TEST(StrutBlocks, GiveTheStrutTheDelayAndTheTimeOfTheNewestBlock) {
+TEST(BlocksOfAStrut, GiveTheStrutTheDelayAndTheTimeOfTheNewestBlock) {
   NoisyDrive drive;
   drive.delay = 0.003;
-  StrutBlocks blocks({}, 1.0 / drive.rate);
-  const std::vector<BlockEstimate> estimates = feed(blocks, readingsOf(drive.sample(), 1000.0));
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  const std::vector<TopEstimate> estimates = feed(blocks, readingsOf(drive.sample(), 1000.0));
   ASSERT_EQ(estimates.size(), 28u);  // blocks 2 to 29 of 0 to 29: the last reading is before 32 s
-  const BlockEstimate& last = estimates.back();
+  const TopEstimate& last = estimates.back();
   EXPECT_EQ(last.stamp, fromSeconds(1031.0));
   EXPECT_NEAR(last.theta[0] / drive.b1, 1.0, 4.0 * last.relativeStddev(0));
   EXPECT_NEAR(last.theta[1] / drive.b0, 1.0, 4.0 * last.relativeStddev(1));
@@ -83,14 +77,14 @@ TEST(StrutBlocks, GiveTheStrutTheDelayAndTheTimeOfTheNewestBlock) {
   EXPECT_LE(last.age, 2.0);
 }
 
-TEST(StrutBlocks, KnowTheStrutWhateverTheGainOfASensor) {
+TEST(BlocksOfAStrut, KnowTheStrutWhateverTheGainOfASensor) {
   for (const double gain : {0.8, 1.1, 1.25})
     for (const bool of_wheel : {false, true}) {
       NoisyDrive drive;
       auto sampled = drive.sample();
       for (double& value : of_wheel ? sampled.wheel : sampled.body) value *= gain;
-      StrutBlocks blocks({}, 1.0 / drive.rate);
-      const BlockEstimate last = feed(blocks, readingsOf(sampled)).back();
+      VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+      const TopEstimate last = feed(blocks, readingsOf(sampled)).back();
       EXPECT_NEAR(last.theta[0] / drive.b1, 1.0, 4.0 * last.relativeStddev(0)) << gain;
       EXPECT_NEAR(last.theta[1] / drive.b0, 1.0, 4.0 * last.relativeStddev(1)) << gain;
       const double expected = (of_wheel ? 1.0 / gain : gain) - 1.0;
@@ -99,7 +93,7 @@ TEST(StrutBlocks, KnowTheStrutWhateverTheGainOfASensor) {
 }
 
 // d' = s w'' / A, white from the lowest bin on; what is below is little.
-TEST(StrutBlocks, GiveTheTravelRateOfTheStrut) {
+TEST(BlocksOfAStrut, GiveTheTravelRateOfTheStrut) {
   NoisyDrive drive;
   double mean_square = 0.0;
   constexpr double kStep = 0.01;
@@ -110,8 +104,8 @@ TEST(StrutBlocks, GiveTheTravelRateOfTheStrut) {
   }
   double sum = 0.0, count = 0.0;
   for (drive.seed = 1; drive.seed <= 10; ++drive.seed) {
-    StrutBlocks blocks({}, 1.0 / drive.rate);
-    for (const BlockEstimate& each : feed(blocks, readingsOf(drive.sample()))) {
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+    for (const TopEstimate& each : feed(blocks, readingsOf(drive.sample()))) {
       sum += each.rate * each.rate;
       count += 1.0;
     }
@@ -120,7 +114,7 @@ TEST(StrutBlocks, GiveTheTravelRateOfTheStrut) {
   EXPECT_NEAR(std::sqrt(sum / count / mean_square), 1.0, 0.1);
 }
 
-TEST(StrutBlocks, DependOnNoUnit) {
+TEST(BlocksOfAStrut, DependOnNoUnit) {
   NoisyDrive drive;
   drive.rate = 200.0;
   drive.delay = 0.002;
@@ -130,8 +124,9 @@ TEST(StrutBlocks, DependOnNoUnit) {
   for (double& each : scaled.wheel) each *= 1000.0;
   BlockOptions options, scaled_options;
   scaled_options.length = options.length / 16.0;
-  StrutBlocks one(options, 1.0 / sampled.rate), other(scaled_options, 1.0 / scaled.rate);
-  const std::vector<BlockEstimate> plain = feed(one, readingsOf(sampled)), turned = feed(other, readingsOf(scaled));
+  VehicleBlocks one(VehicleChannels::ofAccelerometers(), options, 1.0 / sampled.rate);
+  VehicleBlocks other(VehicleChannels::ofAccelerometers(), scaled_options, 1.0 / scaled.rate);
+  const std::vector<TopEstimate> plain = feed(one, readingsOf(sampled)), turned = feed(other, readingsOf(scaled));
   ASSERT_EQ(plain.size(), turned.size());
   const double units[] = {16.0, 256.0, 1.0 / 16.0, 1.0, 1.0, 1000.0};
   for (std::size_t i = 0; i < plain.size(); ++i) {
@@ -147,21 +142,21 @@ TEST(StrutBlocks, DependOnNoUnit) {
   }
 }
 
-TEST(StrutBlocks, MayGetTheWheelsReadingsInBurstsOfThreeSeconds) {
+TEST(BlocksOfAStrut, MayGetTheWheelsReadingsInBurstsOfThreeSeconds) {
   const NoisyDrive drive;
-  std::vector<Reading> even = readingsOf(drive.sample()), bursts = even;
-  std::stable_sort(bursts.begin() + 2, bursts.end(), [](const Reading& a, const Reading& b) {
-    const auto time = [](const Reading& r) {
-      return r.side == Side::kSprung ? r.stamp : fromSeconds(3.0 * (1.0 + std::floor(toSeconds(r.stamp) / 3.0)));
+  std::vector<VehicleReading> even = readingsOf(drive.sample()), bursts = even;
+  std::stable_sort(bursts.begin() + 2, bursts.end(), [](const VehicleReading& a, const VehicleReading& b) {
+    const auto time = [](const VehicleReading& r) {
+      return r.sensor == Sensor::kTop ? r.stamp : fromSeconds(3.0 * (1.0 + std::floor(toSeconds(r.stamp) / 3.0)));
     };
     return time(a) < time(b);
   });
-  StrutBlocks one({}, 1.0 / drive.rate), other({}, 1.0 / drive.rate);
-  const std::vector<BlockEstimate> first = feed(one, even);
-  std::vector<BlockEstimate> second;
-  for (const Reading& reading : bursts)
-    if (const BlockEstimate* estimate = other.push(reading.side, reading.stamp, reading.acceleration))
-      second.push_back(*estimate);
+  VehicleBlocks one(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate),
+      other(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  const std::vector<TopEstimate> first = feed(one, even);
+  std::vector<TopEstimate> second;
+  for (const VehicleReading& reading : bursts)
+    if (const TopEstimate* estimate = other.push(reading)) second.push_back(*estimate);
   ASSERT_GE(second.size(), 8u);
   ASSERT_EQ(second.back().stamp, first.back().stamp);
   // The model of dry friction has a younger strut where readings come in time.
@@ -169,74 +164,75 @@ TEST(StrutBlocks, MayGetTheWheelsReadingsInBurstsOfThreeSeconds) {
     EXPECT_NEAR(second.back().theta[i] / first.back().theta[i], 1.0, 0.2 * first.back().relativeStddev(i));
 }
 
-TEST(StrutBlocks, AreTheSameWhicheverSensorOfAnInstantComesFirst) {
+TEST(BlocksOfAStrut, AreTheSameWhicheverSensorOfAnInstantComesFirst) {
   const NoisyDrive drive;
-  std::vector<Reading> body_first = readingsOf(drive.sample()), wheel_first = body_first;
+  std::vector<VehicleReading> body_first = readingsOf(drive.sample()), wheel_first = body_first;
   for (std::size_t i = 0; i < wheel_first.size(); i += 2) std::swap(wheel_first[i], wheel_first[i + 1]);
-  StrutBlocks one({}, 1.0 / drive.rate), other({}, 1.0 / drive.rate);
-  const std::vector<BlockEstimate> first = feed(one, body_first), second = feed(other, wheel_first);
+  VehicleBlocks one(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate),
+      other(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  const std::vector<TopEstimate> first = feed(one, body_first), second = feed(other, wheel_first);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i)
     for (const int j : {0, 1})
       EXPECT_NEAR(second[i].theta[j] / first[i].theta[j], 1.0, 0.02 * first[i].relativeStddev(j)) << i;
 }
 
-TEST(StrutBlocks, SayNothingWhileOneSensorIsSilentAndGoOnAfterwards) {
+TEST(BlocksOfAStrut, SayNothingWhileOneSensorIsSilentAndGoOnAfterwards) {
   NoisyDrive drive;
   drive.seconds = 64.0;
-  StrutBlocks blocks({}, 1.0 / drive.rate);
-  std::vector<Reading> readings = readingsOf(drive.sample());
-  const auto silent = [](const Reading& reading) {
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  std::vector<VehicleReading> readings = readingsOf(drive.sample());
+  const auto silent = [](const VehicleReading& reading) {
     const double t = toSeconds(reading.stamp);
-    return reading.side == Side::kUnsprung && t > 20.3 && t < 44.2;
+    return reading.sensor == Sensor::kWheel && t > 20.3 && t < 44.2;
   };
   readings.erase(std::remove_if(readings.begin(), readings.end(), silent), readings.end());
-  const std::vector<BlockEstimate> estimates = feed(blocks, readings);
+  const std::vector<TopEstimate> estimates = feed(blocks, readings);
   // The last block ends at 20 s; the first of 45 s to 47 s. None of the time between, and none is left out else.
   ASSERT_EQ(estimates.size(), 17u + 17u);
-  for (const BlockEstimate& each : estimates) {
+  for (const TopEstimate& each : estimates) {
     EXPECT_TRUE(each.stamp <= fromSeconds(20.0) || each.stamp >= fromSeconds(47.0));
     EXPECT_NEAR(each.theta[0] / drive.b1, 1.0, 5.0 * each.relativeStddev(0));
   }
 
-  StrutBlocks deaf({}, 1.0 / drive.rate);
-  for (const Reading& reading : readings)
-    if (reading.side == Side::kSprung) {
-      EXPECT_EQ(deaf.push(reading.side, reading.stamp, reading.acceleration), nullptr);
+  VehicleBlocks deaf(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  for (const VehicleReading& reading : readings)
+    if (reading.sensor == Sensor::kTop) {
+      EXPECT_EQ(deaf.push(reading), nullptr);
     }
 }
 
-TEST(StrutBlocks, SayNothingOfSensorsThatReadTooSeldom) {
+TEST(BlocksOfAStrut, SayNothingOfSensorsThatReadTooSeldom) {
   for (const double rate : {2.0, 1.0, 0.5}) {  // of a bounce of 1.15 Hz
     NoisyDrive drive;
     drive.rate = rate;
-    StrutBlocks blocks({}, 1.0 / rate);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / rate);
     EXPECT_TRUE(feed(blocks, readingsOf(drive.sample())).empty()) << rate << " Hz";
   }
 }
 
-TEST(StrutBlocks, GoOnAfterAClockThatWentBackOnceTheyAreRestarted) {
+TEST(BlocksOfAStrut, GoOnAfterAClockThatWentBackOnceTheyAreRestarted) {
   NoisyDrive drive;
-  StrutBlocks blocks({}, 1.0 / drive.rate);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
   feed(blocks, readingsOf(drive.sample(), 5000.0));
   ASSERT_NE(blocks.estimate(), nullptr);
   blocks.restart();
   EXPECT_EQ(blocks.estimate(), nullptr);
   drive.seed = 2;
-  const std::vector<BlockEstimate> after = feed(blocks, readingsOf(drive.sample(), 17.0));
+  const std::vector<TopEstimate> after = feed(blocks, readingsOf(drive.sample(), 17.0));
   ASSERT_EQ(after.size(), 28u);
   EXPECT_EQ(after.front().stamp, fromSeconds(21.0));
-  for (const BlockEstimate& each : after) EXPECT_NEAR(each.theta[1] / drive.b0, 1.0, 5.0 * each.relativeStddev(1));
+  for (const TopEstimate& each : after) EXPECT_NEAR(each.theta[1] / drive.b0, 1.0, 5.0 * each.relativeStddev(1));
 }
 
-TEST(StrutBlocks, FollowTheBounceWithTheirLength) {
+TEST(BlocksOfAStrut, FollowTheBounceWithTheirLength) {
   for (const auto& [b0, length] : {std::pair(12.0, 4.0), std::pair(52.0, 2.0), std::pair(900.0, 1.0)}) {
     NoisyDrive drive;
     drive.b0 = b0;
     drive.b1 = 0.5 * std::sqrt(b0);
     drive.rate = 128.0;
     drive.seconds = 64.0;
-    StrutBlocks blocks({}, 1.0 / drive.rate);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
     feed(blocks, readingsOf(drive.sample()));
     ASSERT_NE(blocks.estimate(), nullptr);
     EXPECT_EQ(blocks.estimate()->length, length) << b0;
@@ -244,27 +240,28 @@ TEST(StrutBlocks, FollowTheBounceWithTheirLength) {
   }
 }
 
-TEST(StrutBlocks, NeedNeitherCommonNorEvenStampsOfTheSensors) {
+TEST(BlocksOfAStrut, NeedNeitherCommonNorEvenStampsOfTheSensors) {
   const double b1 = 4.2, b0 = 52.0;
   Exponentials wheel;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform;
   for (double f = 0.33; f < 20.0; f += 0.33) wheel.addSine(0.5, f, 2.0 * M_PI * uniform(random));
   const Exponentials body = wheel.throughStrut(b1, b0);
-  std::vector<Reading> readings;
+  std::vector<VehicleReading> readings;
   for (double t = 0.0; t < 40.0; t += 0.01 * (0.4 + 1.2 * uniform(random))) {
     const Stamp stamp = fromSeconds(t);
-    readings.push_back({Side::kSprung, stamp, 9.81 + body.at(toSeconds(stamp))});
+    readings.push_back(readingOf(Side::kSprung, stamp, 9.81 + body.at(toSeconds(stamp))));
   }
   for (double t = 0.003; t < 40.0; t += 0.006 * (0.7 + 0.6 * uniform(random))) {
     const Stamp stamp = fromSeconds(t);
-    if (uniform(random) > 0.05) readings.push_back({Side::kUnsprung, stamp, -1.0 + wheel.at(toSeconds(stamp))});
+    if (uniform(random) > 0.05)
+      readings.push_back(readingOf(Side::kUnsprung, stamp, -1.0 + wheel.at(toSeconds(stamp))));
   }
   std::stable_sort(readings.begin(), readings.end(),
-                   [](const Reading& a, const Reading& b) { return a.stamp < b.stamp; });
-  StrutBlocks blocks({}, 0.01);
+                   [](const VehicleReading& a, const VehicleReading& b) { return a.stamp < b.stamp; });
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 0.01);
   feed(blocks, readings);
-  const std::optional<BlockEstimate> found = blocks.overTheDrive();
+  const std::optional<TopEstimate> found = blocks.overTheDrive();
   ASSERT_TRUE(found);
   const WindowEstimate& all = *found;
   EXPECT_GT(all.blocks, 30);
@@ -272,14 +269,14 @@ TEST(StrutBlocks, NeedNeitherCommonNorEvenStampsOfTheSensors) {
   EXPECT_NEAR(all.theta[1] / b0, 1.0, std::min(0.02, 4.0 * all.relativeStddev(1)));
 }
 
-TEST(StrutBlocks, RecoverCoulombsFrictionWithinATenth) {
+TEST(BlocksOfAStrut, RecoverCoulombsFrictionWithinATenth) {
   for (const double friction : {0.2, 0.6}) {
     NoisyDrive drive;
     drive.rate = 100.0;
     drive.seconds = 64.0;
-    StrutBlocks blocks({}, 1.0 / drive.rate);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
     feed(blocks, readingsOf(withFriction(drive, friction)));
-    const std::optional<BlockEstimate> found = blocks.overTheDrive();
+    const std::optional<TopEstimate> found = blocks.overTheDrive();
     ASSERT_TRUE(found);
     const WindowEstimate& all = *found;
     EXPECT_NEAR(all.theta[kNumBlockParameters], friction, 0.1 * friction);

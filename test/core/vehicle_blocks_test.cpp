@@ -13,6 +13,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+using Sensor = VehicleReading::Sensor;
+
 using vehicle_drive::Tracks;
 
 void expectTruth(const vehicle_drive::Vehicle& vehicle, const Told& told, double tolerance) {
@@ -113,16 +115,16 @@ TEST(VehicleBlocks, OrderBetweenStreamsDoesNotMatter) {
   const vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
   std::vector<BlockVector> last;
   for (const std::size_t burst : {1, 70}) {  // readings of a sensor at once
-    VehicleBlocks blocks(topsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
+    VehicleBlocks blocks(channelsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
     for (std::size_t from = 0; from < record.wheel[0].size(); from += burst)
       for (const bool is_wheel : {false, true})
         for (std::size_t i = 0; i < 2; ++i)
           for (std::size_t k = from; k < std::min(from + burst, record.wheel[0].size()); ++k) {
             const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
             if (is_wheel)
-              blocks.pushWheel(i, stamp, record.wheel[i][k]);
+              blocks.push({Sensor::kWheel, i, stamp, {record.wheel[i][k]}});
             else
-              blocks.pushTop(i, stamp, record.body[i][k]);
+              blocks.push({Sensor::kTop, i, stamp, {record.body[i][k]}});
           }
     ASSERT_NE(blocks.estimate(1), nullptr);
     last.push_back(blocks.estimate(1)->theta);
@@ -136,14 +138,14 @@ TEST(VehicleBlocks, GapsCostBlocksOnly) {
   const vehicle_drive::Vehicle vehicle = vehicle_drive::made("half", 1);
   const vehicle_drive::Drive drive = shortDrive();
   const vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
-  VehicleBlocks blocks(topsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
+  VehicleBlocks blocks(channelsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
   for (std::size_t k = 0; k < record.wheel[0].size(); ++k) {
     const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
     for (std::size_t i = 0; i < 2; ++i) {
       if (i == 1 && k > 2000 && k < 2700) continue;  // its top is silent for 7 s
-      blocks.pushTop(i, stamp, record.body[i][k]);
+      blocks.push({Sensor::kTop, i, stamp, {record.body[i][k]}});
     }
-    for (std::size_t i = 0; i < 2; ++i) blocks.pushWheel(i, stamp, record.wheel[i][k]);
+    for (std::size_t i = 0; i < 2; ++i) blocks.push({Sensor::kWheel, i, stamp, {record.wheel[i][k]}});
   }
   for (std::size_t i = 0; i < 2; ++i) {
     ASSERT_NE(blocks.estimate(i), nullptr);
@@ -156,12 +158,12 @@ TEST(VehicleBlocks, RowsAreThoseOfTheBody) {
   const vehicle_drive::Vehicle vehicle = vehicle_drive::made("sedan", 2);
   const vehicle_drive::Drive drive = shortDrive();
   const vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
-  VehicleBlocks blocks(topsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
+  VehicleBlocks blocks(channelsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
   for (std::size_t k = 0; k < record.wheel[0].size(); ++k)
     for (std::size_t i = 0; i < 4; ++i) {
       const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
-      blocks.pushTop(i, stamp, record.body[i][k]);
-      blocks.pushWheel(i, stamp, record.wheel[i][k]);
+      blocks.push({Sensor::kTop, i, stamp, {record.body[i][k]}});
+      blocks.push({Sensor::kWheel, i, stamp, {record.wheel[i][k]}});
     }
   BodyRows rows;
   ASSERT_TRUE(blocks.rows(rows));
@@ -175,11 +177,11 @@ TEST(VehicleBlocks, RowsAreThoseOfTheBody) {
 }
 
 TEST(VehicleBlocks, RefusesWhatIsNoVehicle) {
-  VehicleTops tops;
-  EXPECT_THROW(VehicleBlocks(tops, BlockOptions{}, 0.01), std::invalid_argument);
-  tops.tops.resize(2);
-  tops.tops[1].has_own = false;
-  EXPECT_THROW(VehicleBlocks(tops, BlockOptions{}, 0.01), std::invalid_argument);
+  VehicleChannels channels;
+  EXPECT_THROW(VehicleBlocks(channels, BlockOptions{}, 0.01), std::invalid_argument);
+  channels.struts.resize(2);
+  channels.struts[0].sprung = 0;
+  EXPECT_THROW(VehicleBlocks(channels, BlockOptions{}, 0.01), std::invalid_argument);
 }
 
 }  // namespace

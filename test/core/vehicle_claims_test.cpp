@@ -15,6 +15,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+using Sensor = VehicleReading::Sensor;
+
 using Kind = VehicleMistake::Kind;
 using vehicle_drive::Record;
 
@@ -25,7 +27,7 @@ vehicle_drive::Drive byBody() {
 }
 
 void expectMistake(Kind kind, StrutPair struts, const vehicle_drive::Drive& drive,
-                   const std::function<void(Record&, VehicleTops&)>& change) {
+                   const std::function<void(Record&, VehicleChannels&)>& change) {
   // A sedan's pitch and roll are little more than the gyro's noise.
   const std::vector<std::string> vehicles =
       drive.imu ? std::vector<std::string>{"robot"} : std::vector<std::string>{"robot", "sedan"};
@@ -48,32 +50,32 @@ TEST(VehicleClaims, OfVehiclesAsTheyAreAreNotContradicted) {
 TEST(VehicleClaims, NameWheelsThatAreSwappedAndOneThatIsUpsideDown) {
   for (const vehicle_drive::Drive& drive : {shortDrive(), byBody()}) {
     expectMistake(Kind::kSwapped, {0, 3}, drive,
-                  [](Record& record, VehicleTops&) { std::swap(record.wheel[0], record.wheel[3]); });
-    expectMistake(Kind::kUpsideDown, {2, 2}, drive, [](Record& record, VehicleTops&) {
+                  [](Record& record, VehicleChannels&) { std::swap(record.wheel[0], record.wheel[3]); });
+    expectMistake(Kind::kUpsideDown, {2, 2}, drive, [](Record& record, VehicleChannels&) {
       for (double& value : record.wheel[2]) value = -value;
     });
   }
   expectMistake(Kind::kSwapped, {1, 2}, shortDrive(),
-                [](Record& record, VehicleTops&) { std::swap(record.body[1], record.body[2]); });
+                [](Record& record, VehicleChannels&) { std::swap(record.body[1], record.body[2]); });
 }
 
 TEST(VehicleClaims, NameTwoTopicsWithTheSameData) {
   expectMistake(Kind::kSameWheels, {1, 2}, shortDrive(),
-                [](Record& record, VehicleTops&) { record.wheel[1] = record.wheel[2]; });
+                [](Record& record, VehicleChannels&) { record.wheel[1] = record.wheel[2]; });
   expectMistake(Kind::kSameTops, {0, 1}, shortDrive(),
-                [](Record& record, VehicleTops&) { record.body[1] = record.body[0]; });
+                [](Record& record, VehicleChannels&) { record.body[1] = record.body[0]; });
 }
 
 TEST(VehicleClaims, NamePositionsOfTheWrongSign) {
   const auto turned = [](int axis) {
-    return [axis](Record&, VehicleTops& tops) {
-      for (VehicleTops::Top& top : tops.tops) (*top.position)[axis] *= -1.0;
+    return [axis](Record&, VehicleChannels& vehicle) {
+      for (VehicleChannels::Strut& top : vehicle.struts) (*top.position)[axis] *= -1.0;
     };
   };
   expectMistake(Kind::kAhead, {0, 0}, byBody(), turned(0));
   expectMistake(Kind::kSide, {0, 0}, byBody(), turned(1));
   expectMistake(Kind::kAheadOfOne, {3, 3}, byBody(),
-                [](Record&, VehicleTops& tops) { tops.tops[3].position->x() *= -1.0; });
+                [](Record&, VehicleChannels& vehicle) { vehicle.struts[3].position->x() *= -1.0; });
 }
 
 // What the readings before it were is what a late stream says.
@@ -83,7 +85,8 @@ void delay(std::vector<double>& stream, std::size_t samples) {
 
 TEST(VehicleClaims, TellByHowMuchAStreamIsLate) {
   const auto late = [](const vehicle_drive::Drive& drive, const std::function<void(Record&)>& change) {
-    return tell(vehicle_drive::made("robot", 1), drive, [&](Record& record, VehicleTops&) { change(record); }).mistake;
+    return tell(vehicle_drive::made("robot", 1), drive, [&](Record& record, VehicleChannels&) { change(record); })
+        .mistake;
   };
   const auto expectLate = [](const VehicleMistake& found, Kind kind, std::size_t strut, double seconds) {
     EXPECT_EQ(found.kind, kind);
@@ -108,9 +111,10 @@ TEST(VehicleClaims, TellByHowMuchAStreamIsLate) {
 
 TEST(VehicleClaims, TellWhatPositionsAreTimesTheFile) {
   for (const int axis : {0, 1}) {
-    const VehicleMistake found = tell(vehicle_drive::made("robot", 1), byBody(), [&](Record&, VehicleTops& tops) {
-                                   for (VehicleTops::Top& top : tops.tops) (*top.position)[axis] *= 0.8;
-                                 }).mistake;
+    const VehicleMistake found =
+        tell(vehicle_drive::made("robot", 1), byBody(), [&](Record&, VehicleChannels& vehicle) {
+          for (VehicleChannels::Strut& top : vehicle.struts) (*top.position)[axis] *= 0.8;
+        }).mistake;
     EXPECT_EQ(found.kind, axis == 0 ? Kind::kAhead : Kind::kSide);
     EXPECT_NEAR(found.size, 1.0 / 0.8, 0.03);
     EXPECT_TRUE(found.isContradiction());
@@ -121,8 +125,9 @@ TEST(VehicleClaims, NameOnePositionThatChangesLessThanTheGyrosNoise) {
   vehicle_drive::Vehicle sedan = vehicle_drive::made("sedan", 1);
   sedan.roughness *= 16.0;  // class C
   for (const std::size_t strut : {0u, 3u}) {
-    const VehicleMistake found =
-        tell(sedan, byBody(), [&](Record&, VehicleTops& tops) { tops.tops[strut].position->y() *= 0.8; }).mistake;
+    const VehicleMistake found = tell(sedan, byBody(), [&](Record&, VehicleChannels& vehicle) {
+                                   vehicle.struts[strut].position->y() *= 0.8;
+                                 }).mistake;
     EXPECT_EQ(found.kind, Kind::kSideOfOne);
     EXPECT_EQ(found.struts.first, strut);
     EXPECT_NEAR(found.size, 1.0 / 0.8, 4.0 * found.stddev);
@@ -131,8 +136,8 @@ TEST(VehicleClaims, NameOnePositionThatChangesLessThanTheGyrosNoise) {
 }
 
 TEST(VehicleClaims, TellWhereTheBodysImuStands) {
-  const VehicleMistake found = tell(vehicle_drive::made("robot", 1), byBody(), [](Record&, VehicleTops& tops) {
-                                 for (VehicleTops::Top& top : tops.tops) top.position->x() += 0.1;
+  const VehicleMistake found = tell(vehicle_drive::made("robot", 1), byBody(), [](Record&, VehicleChannels& vehicle) {
+                                 for (VehicleChannels::Strut& top : vehicle.struts) top.position->x() += 0.1;
                                }).mistake;
   EXPECT_EQ(found.kind, Kind::kShiftAhead);
   EXPECT_NEAR(found.size, -0.1, 0.01);
@@ -142,13 +147,11 @@ TEST(VehicleClaims, SayThatAStrutIsMissing) {
   for (const char* made : {"robot", "sedan"}) {
     vehicle_drive::Vehicle vehicle = vehicle_drive::made(made, 1);
     Record record = vehicle_drive::drive(vehicle, shortDrive());
-    VehicleTops tops;
-    tops.tops.resize(2);
-    VehicleBlocks blocks(tops, BlockOptions{}, 0.01);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(2), BlockOptions{}, 0.01);
     for (std::size_t k = 0; k < record.wheel.front().size(); ++k)
       for (const std::size_t i : {0u, 1u}) {
-        blocks.pushTop(i, fromSeconds(0.01 * static_cast<double>(k)), record.body[i][k]);
-        blocks.pushWheel(i, fromSeconds(0.01 * static_cast<double>(k)), record.wheel[i][k]);
+        blocks.push({Sensor::kTop, i, fromSeconds(0.01 * static_cast<double>(k)), {record.body[i][k]}});
+        blocks.push({Sensor::kWheel, i, fromSeconds(0.01 * static_cast<double>(k)), {record.wheel[i][k]}});
       }
     EXPECT_EQ(blocks.claims().find().kind, Kind::kOthers) << made;
   }
@@ -157,7 +160,7 @@ TEST(VehicleClaims, SayThatAStrutIsMissing) {
 TEST(VehicleClaims, OfADeadGyroAreOfABodyThatDoesNotTurn) {
   for (const bool dies : {false, true})
     for (const std::size_t axis : {1u, 2u}) {  // of Record::imu: rolling, pitching
-      const Told told = tell(vehicle_drive::made("robot", 1), byBody(), [&](Record& record, VehicleTops&) {
+      const Told told = tell(vehicle_drive::made("robot", 1), byBody(), [&](Record& record, VehicleChannels&) {
         std::vector<double>& gyro = record.imu[axis];
         std::fill(gyro.begin() + (dies ? static_cast<std::ptrdiff_t>(gyro.size() / 3) : 0), gyro.end(), 0.0);
       });

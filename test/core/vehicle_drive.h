@@ -53,7 +53,7 @@ inline VehicleDrive bodyImuDrive(const Vehicle& vehicle, const VehicleDriveOptio
   }
   grid.finish();
   grid.describe(drive);
-  drive.places = grid.tops().places();
+  drive.places = grid.vehicle().places();
   return drive;
 }
 

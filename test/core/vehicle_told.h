@@ -23,27 +23,26 @@ inline vehicle_drive::Drive shortDrive(double seconds = 60.0) {
   return drive;
 }
 
-inline VehicleTops topsOf(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& drive) {
-  VehicleTops tops;
-  for (const vehicle_drive::Strut& strut : vehicle.struts) {
-    VehicleTops::Top top;
-    top.has_own = !drive.imu;
-    if (drive.imu) top.position = Eigen::Vector3d(strut.x - drive.imu->x, strut.y - drive.imu->y, 0.0);
-    tops.tops.push_back(top);
+inline VehicleChannels channelsOf(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& drive) {
+  VehicleChannels channels = VehicleChannels::ofAccelerometers(vehicle.struts.size(), drive.pull > 0.0 ? 1 : 0);
+  for (std::size_t i = 0; drive.imu && i < channels.struts.size(); ++i) {
+    channels.struts[i].sprung.reset();
+    channels.struts[i].position =
+        Eigen::Vector3d(vehicle.struts[i].x - drive.imu->x, vehicle.struts[i].y - drive.imu->y, 0.0);
   }
-  tops.known_forces = drive.pull > 0.0 ? 1 : 0;
-  return tops;
+  return channels;
 }
 
 /// @param change  what the file says wrongly, or a sensor does.
 inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& drive,
-                 const std::function<void(vehicle_drive::Record&, VehicleTops&)>& change = {}) {
+                 const std::function<void(vehicle_drive::Record&, VehicleChannels&)>& change = {}) {
+  using Sensor = VehicleReading::Sensor;
   constexpr double kGravity = 9.81;
   vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
-  VehicleTops tops = topsOf(vehicle, drive);
-  if (change) change(record, tops);
+  VehicleChannels channels = channelsOf(vehicle, drive);
+  if (change) change(record, channels);
   const std::size_t n = vehicle.struts.size();
-  VehicleBlocks blocks(tops, BlockOptions{}, 1.0 / drive.rate);
+  VehicleBlocks blocks(channels, BlockOptions{}, 1.0 / drive.rate);
   Told told;
   told.estimates.resize(n);
   const auto keep = [&](const TopEstimate* estimate) {
@@ -52,16 +51,17 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
   for (std::size_t k = 0; k < record.wheel.front().size(); ++k) {
     const Stamp stamp = fromSeconds(100.0 + static_cast<double>(k) / drive.rate);
     if (drive.imu)
-      keep(blocks.pushBody(stamp, {0.0, 0.0, kGravity + record.imu[0][k]}, {record.imu[1][k], record.imu[2][k], 0.0}));
+      keep(blocks.push(
+          {Sensor::kBody, 0, stamp, {0.0, 0.0, kGravity + record.imu[0][k], record.imu[1][k], record.imu[2][k], 0.0}}));
     for (std::size_t i = 0; i < n; ++i) {
-      if (!drive.imu) keep(blocks.pushTop(i, stamp, kGravity + record.body[i][k]));
-      keep(blocks.pushWheel(i, stamp, kGravity + record.wheel[i][k]));
+      if (!drive.imu) keep(blocks.push({Sensor::kTop, i, stamp, {kGravity + record.body[i][k]}}));
+      keep(blocks.push({Sensor::kWheel, i, stamp, {kGravity + record.wheel[i][k]}}));
     }
-    if (drive.pull > 0.0) keep(blocks.pushForce(0, stamp, record.pull[k]));
+    if (drive.pull > 0.0) keep(blocks.push({Sensor::kForce, 0, stamp, {record.pull[k]}}));
   }
   for (std::size_t i = 0; i < n; ++i) told.over_the_drive.push_back(blocks.overTheDrive(i));
   told.mistake = blocks.claims().find();
-  if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit::of(n, tops.places()).fit(rows, blocks.rowsOfHalves());
+  if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit::of(n, channels.places()).fit(rows, blocks.rowsOfHalves());
   return told;
 }
 

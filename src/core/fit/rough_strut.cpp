@@ -23,19 +23,19 @@ constexpr Trial kTrials[] = {{1.0, 0.0}, {1.0, kLag}, {1.0, -kLag}, {1.0, 2.0 * 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
   BlockOptions options;
   options.length = length;
-  StrutBlocks blocks(options, period);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), options, period);
   for (const Drive& drive : drives) {
     blocks.restart();
     for (const CornerSample& sample : drive.samples) blocks.push(sample, fromSeconds(lag));
   }
-  if (const std::optional<BlockEstimate> all = blocks.overTheDrive()) return RoughStrut(*all, lag);
+  if (const std::optional<TopEstimate> all = blocks.overTheDrive()) return RoughStrut(*all, lag);
   if (blocks.estimate() != nullptr) return RoughStrut(*blocks.estimate(), lag);  // by blocks of another length
   return std::nullopt;
 }
 
 }  // namespace
 
-RoughStrut::RoughStrut(const BlockEstimate& estimate, double lag) {
+RoughStrut::RoughStrut(const WindowEstimate& estimate, double lag) {
   const double b1 = estimate.theta[kBlockDamping], b0 = estimate.theta[kBlockStiffness];
   const double friction = estimate.frictionGain() * estimate.theta[kNumBlockParameters];
   strut = {leastDamping(b1 + friction, b0), b0};

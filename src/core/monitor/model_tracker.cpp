@@ -38,7 +38,7 @@ BlockOptions blockOptions(const MonitorSettings& options) {
 
 bool isLeading(EstimateFacts facts) { return doubtOf(facts) == EstimateDoubt::kNone; }
 
-void describe(const BlockEstimate& blocks, std::size_t num_effects, StrutEstimate& estimate) {
+void describe(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& estimate) {
   const auto stddev = [&](int i) { return std::sqrt(blocks.covariance(i, i)); };
   estimate.damping_to_mass = blocks.theta[kBlockDamping];
   estimate.stiffness_to_mass = blocks.theta[kBlockStiffness];
@@ -80,7 +80,7 @@ ModelTracker::ModelTracker(const MonitorSettings& options, bool has_own_blocks)
       identifier_(options),
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
-  if (has_own_blocks) blocks_.emplace(block_options_, period_);
+  if (has_own_blocks) blocks_.emplace(VehicleChannels::ofAccelerometers(), block_options_, period_);
 }
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut,
@@ -88,7 +88,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
   identifier_.changeEffects(columns);
-  blocks_.emplace(block_options_, period_, effects.size());
+  blocks_.emplace(VehicleChannels::ofAccelerometers(), block_options_, period_, effects.size());
   newest_.reset();
   has_own_model_ = is_given_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
   starts_.clear();
@@ -103,20 +103,19 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
 bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, ModelReport& report) {
   now_ = stamp;
   if (!blocks_) return false;
-  const BlockEstimate* estimate = blocks_->push(side, stamp, acceleration);
+  const TopEstimate* estimate = blocks_->push(readingOf(side, stamp, acceleration));
   hold(blocks_->estimate() != nullptr && blocks_->estimator().newestSayNothing());
   return take(estimate, report);
 }
 
-bool ModelTracker::take(const BlockEstimate* estimate, ModelReport& report) {
+bool ModelTracker::take(const TopEstimate* estimate, ModelReport& report) {
   if (estimate == nullptr) return false;
   describe(*estimate, effects().size(), report.estimate);
   newest_ = {estimate->stamp, estimate->age};
   return true;
 }
 
-void ModelTracker::takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev,
-                                ModelReport& report) {
+void ModelTracker::takeEstimate(const TopEstimate& estimate, const Eigen::Vector2d& model_stddev, ModelReport& report) {
   take(&estimate, report);
   report.estimate.damping_model_stddev = model_stddev[0];
   report.estimate.stiffness_model_stddev = model_stddev[1];
@@ -145,7 +144,7 @@ bool ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
   identifier_.add(sample, free_run_.effectForces());
   // The blocks wait until the free run has forgotten where it started: what they find leads it.
   return !effects().empty() && free_run_.settled() &&
-         take(blocks_->pushForces(sample.stamp, free_run_.effectForces()), report);
+         take(blocks_->pushEffects(sample.stamp, free_run_.effectForces()), report);
 }
 
 void ModelTracker::judge(ModelReport& report) {
@@ -184,7 +183,7 @@ void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
   estimate.doubt = doubtOf(facts);
 }
 
-StrutEstimate ModelTracker::judged(const std::optional<BlockEstimate>& blocks,
+StrutEstimate ModelTracker::judged(const std::optional<TopEstimate>& blocks,
                                    const Eigen::Vector2d& model_stddev) const {
   StrutEstimate estimate;
   if (blocks) describe(*blocks, effects().size(), estimate);

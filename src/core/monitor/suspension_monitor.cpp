@@ -72,7 +72,7 @@ void SuspensionMonitor::addTemperature(Stamp stamp, double celsius) {
   if (std::isfinite(celsius)) temperature_ = {stamp, celsius};
 }
 
-void SuspensionMonitor::takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev) {
+void SuspensionMonitor::takeEstimate(const TopEstimate& estimate, const Eigen::Vector2d& model_stddev) {
   plain_.takeEstimate(estimate, model_stddev, extended_ ? base_ : report_);
   has_new_estimate_ = has_new_estimate_ || !extended_;
 }

@@ -48,10 +48,8 @@ Separator::Separator(const std::vector<VehicleDrive>& drives, const std::vector<
 
 // Samples are what a grid made of the readings: every strut has two accelerometers, as it seems.
 void Separator::learnRows(const std::vector<std::string>& names) {
-  VehicleTops tops;
-  tops.tops.resize(names.size());
-  tops.known_forces = drives_.front().forces.size();
-  VehicleBlocks blocks(tops, BlockOptions{}, period_);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(names.size(), drives_.front().forces.size()), BlockOptions{},
+                       period_);
   for (const VehicleDrive& drive : drives_) {
     if (&drive != &drives_.front()) blocks.restart();
     for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));

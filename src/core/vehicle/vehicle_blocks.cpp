@@ -8,34 +8,39 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFewestPeriods = 1.5, kMostPeriods = 6.0;  // of the bounce in a block
+constexpr double kLeastUpperEdge = 2.5, kMostPeriods = 6.0;  // of the bounce in a block; 1.6 of a usual one
+constexpr double kUsualDamping = 0.6;                        // b1 over the bounce: a damping ratio of 0.3
+constexpr double kFewestReadings = 33.0;                     // of a block: fewer are a gap each, see FourierIntegrals
 // Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
 // the information.
 constexpr double kStaleRows = 0.1;
 constexpr double kChanged = 2.0;  // standard deviations from which a neighbour counts as changed
 
-std::size_t checked(const VehicleTops& tops) {
-  requireNumStruts(tops.size());
-  for (const VehicleTops::Top& top : tops.tops)
-    if (!top.has_own && !top.position) throw std::invalid_argument("a strut without a sprung IMU needs a position");
-  return tops.size();
+const VehicleChannels& checked(const VehicleChannels& vehicle) {
+  requireNumStruts(vehicle.struts.size());
+  for (const VehicleChannels::Strut& strut : vehicle.struts)
+    if (!strut.sprung && !strut.position) throw std::invalid_argument("a strut without a sprung IMU needs a position");
+  return vehicle;
 }
 
 }  // namespace
 
-VehicleBlocks::VehicleBlocks(const VehicleTops& tops, const BlockOptions& options, double period)
-    : tops_(tops),
+VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions& options, double period,
+                             std::size_t effects)
+    : vehicle_(checked(vehicle)),
+      effects_(effects),
       options_(options),
       period_(period),
       length_(options.length),
-      columns_{static_cast<int>(tops.known_forces) + (tops.looks_for_friction ? 1 : 0),
-               2 * (static_cast<int>(checked(tops)) - 1)},
-      estimates_(tops.size()),
-      has_(tops.size(), false),
-      blocks_(tops.size()),
-      last_(2 * tops.size() + tops.known_forces + 1),
+      columns_{static_cast<int>(vehicle.known_forces.size() + std::max<std::size_t>(effects, 1)),
+               2 * (static_cast<int>(size()) - 1)},
+      estimates_(size()),
+      has_(size(), false),
+      blocks_(size()),
+      last_(2 * size() + vehicle.known_forces.size() + 2),
       modulation_(BlockBand(length_, period)) {
-  for (std::size_t i = 0; i < tops.size(); ++i) estimates_[i].strut = i;
+  for (std::size_t i = 0; i < size(); ++i) estimates_[i].strut = i;
+  while (length_ < kFewestReadings * period_) length_ *= 2.0;
   begin(length_);
 }
 
@@ -45,20 +50,22 @@ void VehicleBlocks::begin(double length) {
   before.swap(estimators_);
   length_ = length;
   modulation_ = Modulation(band);
-  spectra_.emplace(band, tops_);
-  friction_.assign(tops_.size(), SlidingFriction::ofBlocks(length));
-  for (std::size_t i = 0; i < tops_.size(); ++i) {
+  spectra_.emplace(band, vehicle_, effects_);
+  friction_.assign(size(), SlidingFriction::ofBlocks(length));
+  // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
+  const double bounce = 2.0 * M_PI * std::sqrt(kLeastUpperEdge / (1.0 + kUsualDamping) * kMostPeriods) / length;
+  for (SlidingFriction& each : friction_) each.setStrut(kUsualDamping * bounce, bounce * bounce, 0.0);
+  for (std::size_t i = 0; i < size(); ++i) {
     estimators_.emplace_back(band, columns_, options_);
     if (!before.empty() && before[i].hasTheta()) estimators_[i].begin(before[i].theta(), before[i].slowPrior());
   }
-  model_.emplace(band, tops_.size(), tops_.known_forces);
-  rows_ = model_->rows();
-  has_model_ = false;
-  const auto n = static_cast<Eigen::Index>(tops_.size());
+  has_model_ = isAlone();
+  if (!isAlone()) rows_ = model_.emplace(band, size(), vehicle_.known_forces.size()).rows();
+  const auto n = static_cast<Eigen::Index>(size());
   motions_.setZero(band.size(), 2 * n);
   motion_.resize(band.size());
   origin_.reset();
-  to_update_ = tops_.size();
+  to_update_ = size();
   to_predict_ = 0;
   next_half_ = 1;
 }
@@ -66,18 +73,19 @@ void VehicleBlocks::begin(double length) {
 void VehicleBlocks::restart() {
   for (BlockEstimator& each : estimators_) each.restart();
   for (SlidingFriction& each : friction_) each.restart();
-  spectra_.emplace(BlockBand(length_, period_), tops_);
+  spectra_->restart();
+  has_.assign(has_.size(), false);
   last_.assign(last_.size(), std::nullopt);
   origin_.reset();
-  to_update_ = tops_.size();
+  to_update_ = size();
   to_predict_ = 0;
   next_half_ = 1;
 }
 
 // A clock that went back, or a stamp that was far ahead: what follows has nothing to do with what was before.
-std::optional<double> VehicleBlocks::timeOf(std::size_t sensor, Stamp stamp) {
-  if (last_[sensor] && stamp <= *last_[sensor]) restart();
-  last_[sensor] = stamp;
+std::optional<double> VehicleBlocks::timeOf(std::size_t stream, Stamp stamp) {
+  if (last_[stream] && stamp <= *last_[stream]) restart();
+  last_[stream] = stamp;
   if (!origin_) origin_ = stamp;
   const double time = toSeconds(stamp - *origin_);
   if (time < 0.0) return std::nullopt;  // another stream began later
@@ -85,58 +93,41 @@ std::optional<double> VehicleBlocks::timeOf(std::size_t sensor, Stamp stamp) {
 }
 
 const TopEstimate* VehicleBlocks::push(const VehicleReading& reading) {
-  const auto& values = reading.values;
-  switch (reading.sensor) {
-    case VehicleReading::Sensor::kWheel: return pushWheel(reading.place, reading.stamp, values[0]);
-    case VehicleReading::Sensor::kTop: return pushTop(reading.place, reading.stamp, values[0]);
-    case VehicleReading::Sensor::kForce: return pushForce(reading.place, reading.stamp, values[0]);
-    case VehicleReading::Sensor::kBody: break;
-  }
-  return pushBody(reading.stamp, {values[0], values[1], values[2]}, {values[3], values[4], values[5]});
-}
-
-const TopEstimate* VehicleBlocks::pushWheel(std::size_t strut, Stamp stamp, double acceleration) {
-  const auto time = timeOf(strut, stamp);
+  const std::size_t place = reading.place, first[] = {0, size(), 2 * size(), 2 * size() + 1};
+  const auto time = timeOf(first[static_cast<std::size_t>(reading.sensor)] + place, reading.stamp);
   if (!time) return nullptr;
   double direction = 0.0;
-  if (tops_.looks_for_friction) {
-    const BlockEstimator& estimator = estimators_[strut];
-    const BlockVector& theta = estimator.theta();
-    if (estimator.hasTheta())
-      friction_[strut].setStrut(theta[kBlockDamping], theta[kBlockStiffness], theta[columns_.firstForce()]);
-    direction = friction_[strut].push(*time, acceleration);
+  if (reading.sensor == VehicleReading::Sensor::kWheel && looksForFriction()) {
+    const BlockVector& theta = estimators_[place].theta();
+    if (estimators_[place].hasTheta())
+      friction_[place].setStrut(theta[kBlockDamping], theta[kBlockStiffness], theta[columns_.firstForce()]);
+    direction = friction_[place].push(*time, reading.values[0]);
   }
-  spectra_->pushWheel(strut, *time, acceleration, direction);
+  spectra_->push(reading, *time, direction);
   return work();
 }
 
-const TopEstimate* VehicleBlocks::pushTop(std::size_t strut, Stamp stamp, double acceleration) {
-  const auto time = timeOf(tops_.size() + strut, stamp);
-  if (!time) return nullptr;
-  spectra_->pushTop(strut, *time, acceleration);
-  return work();
-}
-
-const TopEstimate* VehicleBlocks::pushBody(Stamp stamp, const Eigen::Vector3d& acceleration,
-                                           const Eigen::Vector3d& rate) {
+const TopEstimate* VehicleBlocks::pushEffects(Stamp stamp, const double* forces) {
   const auto time = timeOf(last_.size() - 1, stamp);
   if (!time) return nullptr;
-  spectra_->pushBody(*time, acceleration, rate);
+  spectra_->pushEffects(*time, forces);
   return work();
 }
 
-const TopEstimate* VehicleBlocks::pushForce(std::size_t force, Stamp stamp, double value) {
-  const auto time = timeOf(2 * tops_.size() + force, stamp);
-  if (!time) return nullptr;
-  spectra_->pushForce(force, *time, value);
-  return work();
+const TopEstimate* VehicleBlocks::push(const CornerSample& sample, Stamp lag) {
+  if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) return nullptr;
+  const TopEstimate* of_body = push(readingOf(Side::kSprung, sample.stamp - lag, sample.sprung_acceleration));
+  const TopEstimate* of_wheel = push(readingOf(Side::kUnsprung, sample.stamp, sample.unsprung_acceleration));
+  return of_wheel != nullptr ? of_wheel : of_body;
 }
 
-// One portion per reading.
+// One portion per reading; a strut alone takes no longer than a portion.
 const TopEstimate* VehicleBlocks::work() {
-  if (to_update_ < tops_.size()) {
+  if (to_update_ < size()) {
     const TopEstimate* found = update(to_update_++);
-    if (to_update_ == tops_.size()) finishRound();
+    if (to_update_ < size()) return found;
+    if (!isAlone()) updateModel();
+    if (found != nullptr || !isAlone()) follow();
     return found;
   }
   if (to_predict_ > 0) {
@@ -146,22 +137,30 @@ const TopEstimate* VehicleBlocks::work() {
   }
   // A stream that is silent holds the others up only as long as their half blocks are kept.
   next_half_ = std::max(next_half_, spectra_->newestOpen() - FourierIntegrals::kHalves + 2);
-  if (spectra_->isPassed(next_half_)) takeBlock();
-  return nullptr;
+  const TopEstimate* found = nullptr;
+  while (spectra_->isPassed(next_half_)) {
+    takeBlock();
+    if (!isAlone()) break;
+    if (to_update_ == 0)
+      if (const TopEstimate* newest = work()) found = newest;
+  }
+  return found;
 }
 
 void VehicleBlocks::takeBlock() {
   const long half = next_half_++;
   if (!spectra_->isWhole(half)) return;
-  for (std::size_t i = 0; i < tops_.size(); ++i) spectra_->fill(i, half, estimators_[i].next());
-  fillNeighbours();
-  predict(0);
+  for (std::size_t i = 0; i < size(); ++i) spectra_->fill(i, half, estimators_[i].next());
+  if (!isAlone()) {
+    fillNeighbours();
+    predict(0);
+  }
   newest_half_ = half;
   to_update_ = 0;
 }
 
 void VehicleBlocks::fillNeighbours() {
-  for (std::size_t j = 0; j < tops_.size(); ++j) {
+  for (std::size_t j = 0; j < size(); ++j) {
     const StrutBlock& block = estimators_[j].block(0);
     modulation_.setDelay(estimators_[j].hasTheta() ? estimators_[j].slowPrior().mean[kBlockDelay] : 0.0);
     for (const std::size_t p : {1, 0}) {
@@ -170,8 +169,8 @@ void VehicleBlocks::fillNeighbours() {
       motions_.col(static_cast<Eigen::Index>(2 * j + 1 - p)) = motion_ - block.body.col(static_cast<Eigen::Index>(p));
     }
   }
-  for (std::size_t i = 0; i < tops_.size(); ++i)
-    for (std::size_t j = 0; j < tops_.size(); ++j)
+  for (std::size_t i = 0; i < size(); ++i)
+    for (std::size_t j = 0; j < size(); ++j)
       if (j != i)
         estimators_[i].block(0).neighbours.middleCols(neighbourColumn(i, j), 2) =
             motions_.middleCols(static_cast<Eigen::Index>(2 * j), 2);
@@ -179,9 +178,9 @@ void VehicleBlocks::fillNeighbours() {
 
 // Without a model what was measured is all there is.
 void VehicleBlocks::predict(int age) {
-  for (std::size_t i = 0; i < tops_.size(); ++i) blocks_[i] = &estimators_[i].block(age);
+  for (std::size_t i = 0; i < size(); ++i) blocks_[i] = &estimators_[i].block(age);
   if (has_model_) model_->predict(blocks_, firstKnownForce());
-  for (std::size_t i = 0; i < tops_.size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     StrutBlock& block = estimators_[i].block(age);
     if (!has_model_) {
       block.predicted_neighbours = block.neighbours;
@@ -189,7 +188,7 @@ void VehicleBlocks::predict(int age) {
       continue;
     }
     block.predicted_travel = model_->travel().col(static_cast<Eigen::Index>(i));
-    for (std::size_t j = 0; j < tops_.size(); ++j) {
+    for (std::size_t j = 0; j < size(); ++j) {
       if (j == i) continue;
       const int at = neighbourColumn(i, j);
       block.predicted_neighbours.col(at + 1) = model_->travel().col(static_cast<Eigen::Index>(j));
@@ -206,7 +205,7 @@ const TopEstimate* VehicleBlocks::update(std::size_t strut) {
   TopEstimate& estimate = estimates_[strut];
   static_cast<WindowEstimate&>(estimate) = *found;
   estimate.length = length_;
-  if (tops_.looks_for_friction) estimate.friction = found->theta[columns_.firstForce()];
+  if (looksForFriction()) estimate.friction = found->theta[columns_.firstForce()];
   estimate.stamp = *origin_ + fromSeconds(static_cast<double>(newest_half_ + 1) * length_ / 2.0);
   has_[strut] = true;
   return &estimate;
@@ -214,7 +213,7 @@ const TopEstimate* VehicleBlocks::update(std::size_t strut) {
 
 // b_ij / b_jj belongs to the body: where strut j differs now from what all blocks say of it, so do its columns here.
 void VehicleBlocks::scaleNeighbours(std::size_t strut) {
-  for (std::size_t j = 0; j < tops_.size(); ++j) {
+  for (std::size_t j = 0; j < size(); ++j) {
     const auto& all = estimators_[j].ofAllBlocks();
     if (j == strut || !all || !has_[j]) continue;
     const TopEstimate& now = estimates_[j];
@@ -228,10 +227,10 @@ void VehicleBlocks::scaleNeighbours(std::size_t strut) {
 }
 
 // All tops are up to date: so may be the model of them all.
-void VehicleBlocks::finishRound() {
+void VehicleBlocks::updateModel() {
   for (const BlockEstimator& each : estimators_)
     if (!each.hasTheta()) return;
-  const std::size_t n = tops_.size();
+  const std::size_t n = size();
   bool is_stale = !has_model_;
   const int known = columns_.firstForce() + firstKnownForce();
   for (std::size_t i = 0; i < n; ++i) {
@@ -242,7 +241,7 @@ void VehicleBlocks::finishRound() {
       rows_.rate(row, static_cast<Eigen::Index>(j)) = theta[at];
       rows_.travel(row, static_cast<Eigen::Index>(j)) = theta[at + 1];
     }
-    for (std::size_t k = 0; k < tops_.known_forces; ++k)
+    for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k)
       rows_.force(row, static_cast<Eigen::Index>(k)) = theta[known + static_cast<int>(k)];
     const TopRows& before = model_->rows();
     const auto moved = [&](const Eigen::MatrixXd& now, const Eigen::MatrixXd& then) {
@@ -258,20 +257,23 @@ void VehicleBlocks::finishRound() {
     for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
     to_predict_ = estimators_.front().count();
   }
-  follow();
 }
 
-// As StrutBlocks does for one strut: by the struts that have an estimate.
+// Blocks that are too short lose the bounce below their lowest bin, of two periods in a block, the more of it the
+// sharper its resonance is; in blocks of more than kMostPeriods it is in few bins of many, and they are slower than
+// they need to be. The strut that bounces slowest decides.
 void VehicleBlocks::follow() {
-  double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
+  double periods = std::numeric_limits<double>::infinity(), upper_edge = periods;
   for (const BlockEstimator& each : estimators_) {
-    const double periods = length_ * std::sqrt(each.theta()[kBlockStiffness]) / (2.0 * M_PI);
-    slowest = std::min(slowest, periods);
-    fastest = std::max(fastest, periods);
+    if (!each.hasTheta()) return;
+    const double bounce = std::sqrt(each.theta()[kBlockStiffness]), own = length_ * bounce / (2.0 * M_PI);
+    periods = std::min(periods, own);
+    // of the resonance, its width above its peak
+    upper_edge = std::min(upper_edge, own * (1.0 + each.theta()[kBlockDamping] / bounce));
   }
-  if (slowest < kFewestPeriods)
+  if (upper_edge < kLeastUpperEdge)
     begin(2.0 * length_);
-  else if (slowest > kMostPeriods)
+  else if (periods > kMostPeriods && length_ >= 2.0 * kFewestReadings * period_)
     begin(0.5 * length_);
 }
 

@@ -18,21 +18,12 @@ constexpr std::size_t kFewestOfLevel = 256;  // the same within 5 %
 
 using Sensor = VehicleReading::Sensor;
 
-VehicleTops topsOf(const VehicleChannels& vehicle) {
-  VehicleTops tops;
-  for (const VehicleChannels::Strut& strut : vehicle.struts)
-    tops.tops.push_back({strut.sprung.has_value(), strut.position});
-  tops.known_forces = vehicle.known_forces.size();
-  return tops;
-}
-
 }  // namespace
 
 VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink,
                          ReadingSink readings)
     : period_(fromSeconds(period)),
       vehicle_(streams.channels),
-      measured_(topsOf(streams.channels)),
       tops_(period_, streams.channels),
       grid_(period, streams.options, options.alignment, options.fill_samples + 2 * tops_.delay()),
       body_levels_(streams.channels.body_imu ? 6 : 0, WhiteLevel(1.0 - 1.0 / kLevelMemory)),
@@ -133,7 +124,6 @@ void VehicleGrid::turnUpright(const BodyLevel& level) {
   vehicle_.body_mount = level_.mount();
   for (VehicleChannels::Strut& strut : vehicle_.struts)
     if (strut.position) strut.position = Eigen::Vector3d(level_.mount() * *strut.position);
-  measured_ = topsOf(vehicle_);
   tops_ = StrutTops(period_, vehicle_);
   num_to_wait_ = 0;
   const std::vector<VehicleReading> readings = std::exchange(waiting_readings_, {});

@@ -72,7 +72,7 @@ void VehicleMonitor::addTemperature(std::size_t strut, Stamp stamp, double celsi
   if (isCoupled()) struts_[strut].addTemperature(stamp, celsius);
 }
 
-void VehicleMonitor::addReading(const VehicleTops& tops, const VehicleReading& reading) {
+void VehicleMonitor::addReading(const VehicleChannels& vehicle, const VehicleReading& reading) {
   if (is_alone_) {
     const Side side = reading.sensor == VehicleReading::Sensor::kWheel ? Side::kUnsprung : Side::kSprung;
     return struts_.front().addReading(side, reading.stamp, reading.values[0]);
@@ -81,7 +81,7 @@ void VehicleMonitor::addReading(const VehicleTops& tops, const VehicleReading& r
   if (!blocks_) {
     BlockOptions options;
     options.length = starts_.front().settings.presentBlockLength();
-    blocks_.emplace(tops, options, toSeconds(period_));
+    blocks_.emplace(vehicle, options, toSeconds(period_));
   }
   const TopEstimate* estimate = blocks_->push(reading);
   if (estimate == nullptr) return;
@@ -134,12 +134,9 @@ void VehicleMonitor::addGridSample(const VehicleSample& sample) {
 }
 
 void VehicleMonitor::addSample(const VehicleSample& sample) {
-  VehicleTops tops;
-  if (!blocks_) {
-    tops.tops.resize(numStruts());
-    tops.known_forces = static_cast<std::size_t>(num_forces_);
-  }
-  forReadings(sample, [&](const VehicleReading& reading) { addReading(tops, reading); });
+  VehicleChannels vehicle;
+  if (!blocks_) vehicle = VehicleChannels::ofAccelerometers(numStruts(), static_cast<std::size_t>(num_forces_));
+  forReadings(sample, [&](const VehicleReading& reading) { addReading(vehicle, reading); });
   addGridSample(sample);
 }
 
@@ -180,7 +177,7 @@ void VehicleMonitor::fitRows() {
   claims_.reset();
   BodyRows rows;
   if (!blocks_->rows(rows)) return;
-  body_ = BodyFit::of(numStruts(), blocks_->tops().places()).fit(rows, blocks_->rowsOfHalves());
+  body_ = BodyFit::of(numStruts(), blocks_->vehicle().places()).fit(rows, blocks_->rowsOfHalves());
 }
 
 void VehicleMonitor::fitBodyIfDue() {

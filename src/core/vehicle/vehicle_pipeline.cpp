@@ -43,7 +43,7 @@ void VehiclePipeline::start(double period) {
   monitor_.emplace(starts_, sinks_.report, static_cast<int>(streams_.channels.known_forces.size()));
   grid_.emplace(
       period, streams_, settings.grid(period), [this](const VehicleSample& sample) { take(sample); },
-      [this](const VehicleReading& reading) { monitor_->addReading(grid_->tops(), reading); });
+      [this](const VehicleReading& reading) { monitor_->addReading(grid_->vehicle(), reading); });
   if (streams_.channels.road) tyre_.emplace(settings);
 }
 

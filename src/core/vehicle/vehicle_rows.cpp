@@ -7,12 +7,14 @@
 namespace suspension_health_monitor {
 
 std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
-  if (!has_model_ || !has_[strut]) return std::nullopt;
+  if (!has_model_) return std::nullopt;
   const std::optional<WindowEstimate> of_drive = estimators_[strut].overTheDrive();
   const auto& all = estimators_[strut].ofAllBlocks();
-  if (!of_drive || !all) return std::nullopt;
+  if (!of_drive || (!all && !isAlone())) return std::nullopt;
   TopEstimate result = estimates_[strut];
   static_cast<WindowEstimate&>(result) = *of_drive;
+  result.length = length_;
+  if (isAlone()) return result;
   // Noise of wheels that move alike draws every block the same way: more blocks do not help.
   result.alike = std::max(result.alike, all->alike);
   for (const int i : {kBlockDamping, kBlockStiffness})
@@ -21,26 +23,26 @@ std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
 }
 
 void VehicleBlocks::beginRows(BodyRows& rows) const {
-  const auto n = static_cast<Eigen::Index>(tops_.size());
-  rows.is_by_body = std::none_of(tops_.tops.begin(), tops_.tops.end(), [](const auto& top) { return top.has_own; });
+  const auto n = static_cast<Eigen::Index>(size());
+  rows.is_by_body = isByBody();
   rows.rate.resize(n, n);
   rows.travel.resize(n, n);
-  rows.force.resize(n, static_cast<Eigen::Index>(tops_.known_forces));
+  rows.force.resize(n, static_cast<Eigen::Index>(vehicle_.known_forces.size()));
   rows.force_stddev.resize(rows.force.rows(), rows.force.cols());
-  rows.covariance.resize(tops_.size());
+  rows.covariance.resize(size());
   for (Eigen::MatrixXd& covariance : rows.covariance) covariance.resize(2 * n, 2 * n);
 }
 
 // What others see of a strut's damper is what its friction acts as, too.
 void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
-  const auto n = static_cast<Eigen::Index>(tops_.size()), i = static_cast<Eigen::Index>(strut);
+  const auto n = static_cast<Eigen::Index>(size()), i = static_cast<Eigen::Index>(strut);
   using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;
   Selection selection = Selection::Zero(2 * n, estimate.theta.size());
-  for (std::size_t j = 0; j < tops_.size(); ++j) {
+  for (std::size_t j = 0; j < size(); ++j) {
     const int at = columnOf(strut, j);
     selection(static_cast<Eigen::Index>(j), at) = selection(n + static_cast<Eigen::Index>(j), at + 1) = 1.0;
   }
-  if (tops_.looks_for_friction) selection(i, columns_.firstForce()) = estimate.frictionGain();
+  if (looksForFriction()) selection(i, columns_.firstForce()) = estimate.frictionGain();
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate.theta;
   rows.rate.row(i) = row.head(n).transpose();
   rows.travel.row(i) = row.tail(n).transpose();
@@ -58,14 +60,14 @@ bool VehicleBlocks::rows(BodyRows& rows) const {
   for (const BlockEstimator& each : estimators_)
     if (!each.ofAllBlocks()) return false;
   beginRows(rows);
-  for (std::size_t i = 0; i < tops_.size(); ++i) setRow(i, *estimators_[i].ofAllBlocks(), rows);
+  for (std::size_t i = 0; i < size(); ++i) setRow(i, *estimators_[i].ofAllBlocks(), rows);
   return true;
 }
 
 std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   BodyRows rows;
   beginRows(rows);
-  for (std::size_t i = 0; i < tops_.size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     const auto estimate = overTheDrive(i);
     if (!estimate) return std::nullopt;
     setRow(i, *estimate, rows);
@@ -74,11 +76,11 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
 }
 
 VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
-  const auto n = static_cast<Eigen::Index>(tops_.size());
+  const auto n = static_cast<Eigen::Index>(size());
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
-  const auto num_forces = static_cast<Eigen::Index>(tops_.known_forces);
-  VehicleClaims claims(tops_.size(), tops_.known_forces, s, of_body_imu, estimators_.front().count());
+  const auto num_forces = static_cast<Eigen::Index>(vehicle_.known_forces.size());
+  VehicleClaims claims(size(), vehicle_.known_forces.size(), s, of_body_imu, estimators_.front().count());
   VehicleClaims::Spectra wheels, tops;
   Eigen::ArrayXXcd forces(s.size(), num_forces);
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
@@ -101,7 +103,7 @@ VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
 std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {
   std::vector<BodyRows> halves(2);
   for (BodyRows& half : halves) beginRows(half);
-  for (std::size_t i = 0; i < tops_.size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     // The block between both shares readings with each.
     const int count = (estimators_[i].count() - 1) / 2;
     for (const std::size_t half : {0, 1}) {

@@ -4,58 +4,62 @@
 
 namespace suspension_health_monitor {
 
-VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleTops& tops)
-    : band_(band), tops_(tops), modulation_(band), channel_(band.spectrumSize()), derivative_(band.size()) {
-  for (const VehicleTops::Top& top : tops.tops) {
-    wheels_.emplace_back(band, tops.looks_for_friction ? 2 : 1);
+VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleChannels& vehicle, std::size_t effects)
+    : band_(band), vehicle_(vehicle), modulation_(band), channel_(band.spectrumSize()), derivative_(band.size()) {
+  for (const VehicleChannels::Strut& strut : vehicle.struts) {
+    wheels_.emplace_back(band, effects > 0 ? 1 : 2);
     own_of_.push_back(own_.size());
-    if (top.has_own) own_.emplace_back(band, 1);
+    if (strut.sprung) own_.emplace_back(band, 1);
   }
-  if (tops.needsBody()) body_.emplace_back(band, kBodyChannels);
-  for (std::size_t i = 0; i < tops.known_forces; ++i) forces_.emplace_back(band, 1);
+  if (vehicle.numTopsOfBody() > 0) body_.emplace_back(band, kBodyChannels);
+  for (std::size_t i = 0; i < vehicle.known_forces.size(); ++i) forces_.emplace_back(band, 1);
+  if (effects > 0) effects_.emplace_back(band, effects);
 }
 
-void VehicleSpectra::pushWheel(std::size_t strut, double time, double acceleration, double direction) {
-  const double values[] = {acceleration, direction};
-  wheels_[strut].push(time, values);
+void VehicleSpectra::push(const VehicleReading& reading, double time, double direction) {
+  using Sensor = VehicleReading::Sensor;
+  const auto& values = reading.values;
+  if (reading.sensor == Sensor::kTop) return own_[own_of_[reading.place]].push(time, values.data());
+  if (reading.sensor == Sensor::kForce) return forces_[reading.place].push(time, values.data());
+  if (reading.sensor == Sensor::kWheel) {
+    const double of_wheel[] = {values[0], direction};
+    return wheels_[reading.place].push(time, of_wheel);
+  }
+  const double wx = values[3], wy = values[4], wz = values[5];
+  std::array<double, kBodyChannels> of_body;
+  of_body[kAz] = values[2];
+  of_body[kWx] = wx;
+  of_body[kWy] = wy;
+  of_body[kWzWx] = wz * wx;
+  of_body[kWzWy] = wz * wy;
+  of_body[kWx2Wy2] = wx * wx + wy * wy;
+  body_.front().push(time, of_body.data());
 }
 
-void VehicleSpectra::pushTop(std::size_t strut, double time, double acceleration) {
-  own_[own_of_[strut]].push(time, &acceleration);
+void VehicleSpectra::restart() {
+  for (auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
+    for (FourierIntegrals& stream : *streams) stream.restart();
 }
 
-void VehicleSpectra::pushBody(double time, const Eigen::Vector3d& acceleration, const Eigen::Vector3d& rate) {
-  std::array<double, kBodyChannels> values;
-  values[kAz] = acceleration.z();
-  values[kWx] = rate.x();
-  values[kWy] = rate.y();
-  values[kWzWx] = rate.z() * rate.x();
-  values[kWzWy] = rate.z() * rate.y();
-  values[kWx2Wy2] = rate.x() * rate.x() + rate.y() * rate.y();
-  body_.front().push(time, values.data());
+template <class Predicate>
+bool VehicleSpectra::areAll(const Predicate& predicate) const {
+  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
+    if (!std::all_of(streams->begin(), streams->end(), predicate)) return false;
+  return true;
 }
-
-void VehicleSpectra::pushForce(std::size_t force, double time, double value) { forces_[force].push(time, &value); }
 
 bool VehicleSpectra::isPassed(long half) const {
-  const auto are = [&](const std::vector<FourierIntegrals>& streams) {
-    return std::all_of(streams.begin(), streams.end(), [&](const auto& stream) { return stream.openHalf() > half; });
-  };
-  return are(wheels_) && are(own_) && are(body_) && are(forces_);
+  return areAll([&](const FourierIntegrals& stream) { return stream.openHalf() > half; });
 }
 
 bool VehicleSpectra::isWhole(long half) const {
-  const auto are = [&](const std::vector<FourierIntegrals>& streams) {
-    return std::all_of(streams.begin(), streams.end(), [&](const auto& stream) {
-      return stream.half(half - 1) != nullptr && stream.half(half) != nullptr;
-    });
-  };
-  return are(wheels_) && are(own_) && are(body_) && are(forces_);
+  return areAll(
+      [&](const FourierIntegrals& stream) { return stream.half(half - 1) != nullptr && stream.half(half) != nullptr; });
 }
 
 long VehicleSpectra::newestOpen() const {
   long newest = 0;
-  for (const auto* streams : {&wheels_, &own_, &body_, &forces_})
+  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
     for (const FourierIntegrals& stream : *streams) newest = std::max(newest, stream.openHalf());
   return newest;
 }
@@ -68,9 +72,10 @@ void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
     stream.sumHalves(half, channel, channel_);
     block.forces.col(column++) = channel_;
   };
-  if (tops_.looks_for_friction) fillForce(wheels_[strut], 1);
+  if (effects_.empty()) fillForce(wheels_[strut], 1);
+  while (column < block.forces.cols() - static_cast<Eigen::Index>(forces_.size())) fillForce(effects_.front(), column);
   for (const FourierIntegrals& force : forces_) fillForce(force, 0);
-  if (!tops_.tops[strut].has_own) return fillByBody(*tops_.tops[strut].position, half, block);
+  if (!vehicle_.struts[strut].sprung) return fillByBody(*vehicle_.struts[strut].position, half, block);
   own_[own_of_[strut]].sumHalves(half, 0, channel_);
   for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(static_cast<Eigen::Index>(p)));
 }

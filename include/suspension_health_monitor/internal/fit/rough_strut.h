@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/drive.h"
-#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
@@ -17,7 +17,7 @@ struct RoughStrut {
   double clock_offset_stddev = 0.0;  ///< [s]
 
   /// @param lag  by which the body's clock was taken for late [s].
-  explicit RoughStrut(const BlockEstimate& estimate, double lag = 0.0);
+  explicit RoughStrut(const WindowEstimate& estimate, double lag = 0.0);
 
   /// @return true if the clocks differ beyond doubt, by more than half a sample and 2.5 ms.
   bool clocksDiffer(double period) const;

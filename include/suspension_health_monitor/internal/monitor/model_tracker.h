@@ -6,17 +6,17 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/running_comparison.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor/strut_identifier.h"
 #include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
-/// One model of the strut, plain or with effects, followed through a drive: the estimates of its blocks (StrutBlocks)
+/// One model of the strut, plain or with effects, followed through a drive: the estimates of its blocks (VehicleBlocks)
 /// and of its rows (StrutIdentifier), the decision whether they are valid (doubtOf()), and the free run against the
 /// measurement: with the block estimate, or LA's where there is none, as with `preset: paper`.
 ///
@@ -45,7 +45,7 @@ class ModelTracker {
   bool addReading(Side side, Stamp stamp, double acceleration, ModelReport& report);
 
   /// Takes the blocks' estimate from elsewhere, with the model's error in b1 [1/s] and b0 [1/s^2].
-  void takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev, ModelReport& report);
+  void takeEstimate(const TopEstimate& estimate, const Eigen::Vector2d& model_stddev, ModelReport& report);
 
   /// While the newest blocks say nothing of the strut LS and LA stay as they are.
   void hold(bool holds) { identifier_.hold(holds); }
@@ -76,17 +76,17 @@ class ModelTracker {
   bool holds() const { return identifier_.holds(); }
 
   /// @return what blocks say, judged as overTheDrive() is.  @param model_stddev  as takeEstimate().
-  StrutEstimate judged(const std::optional<BlockEstimate>& blocks, const Eigen::Vector2d& model_stddev) const;
+  StrutEstimate judged(const std::optional<TopEstimate>& blocks, const Eigen::Vector2d& model_stddev) const;
 
-  /// @return the estimate over all readings so far, as StrutBlocks::overTheDrive(); with NaN: too little is known. Not
-  /// for the sample path.
+  /// @return the estimate over all readings so far, as VehicleBlocks::overTheDrive(); with NaN: too little is known.
+  /// Not for the sample path.
   StrutEstimate overTheDrive() { return judged(blocks_->overTheDrive(), Eigen::Vector2d::Zero()); }
 
   /// @return the factor that rows are forgotten by.
   double forgettingFactor() const { return identifier_.forgettingFactor(); }
 
  private:
-  bool take(const BlockEstimate* estimate, ModelReport& report);
+  bool take(const TopEstimate* estimate, ModelReport& report);
   bool addRow(const CornerSample& sample, ModelReport& report);
   void judge(ModelReport& report);
   EstimateFacts factsOf(const StrutEstimate& estimate, bool has_estimate) const;
@@ -98,7 +98,7 @@ class ModelTracker {
   bool is_paper_;
   BlockOptions block_options_;
   double period_, oldest_data_;  // [s]
-  std::optional<StrutBlocks> blocks_;
+  std::optional<VehicleBlocks> blocks_;
   /// Of the newest block estimate.
   struct Newest {
     Stamp stamp{};

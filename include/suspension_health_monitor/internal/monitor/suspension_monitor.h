@@ -15,7 +15,7 @@ namespace suspension_health_monitor {
 
 /// Identifies one strut from a series of samples: the facade that the nodelet, the command line and the tests share.
 ///
-/// Per reading: the blocks of both sensors (StrutBlocks), whose estimate comes after every half block. Per sample of
+/// Per reading: the blocks of both sensors (VehicleBlocks), whose estimate comes after every half block. Per sample of
 /// the grid, as in the paper: integral filter (9) -> regression row (28)-(30) -> LS (15)-(17) and LA (24)-(26), then
 /// the free run against the measurement. Health is judged with every block estimate. While samples come at another
 /// period than that of the options no estimate is valid (InputStatus::period_fits). With effects in the model
@@ -47,7 +47,7 @@ class SuspensionMonitor {
   void addReading(Side side, Stamp stamp, double acceleration);
 
   /// Takes the block estimate of the plain model from elsewhere.  @param model_stddev  as ModelTracker::takeEstimate().
-  void takeEstimate(const BlockEstimate& estimate, const Eigen::Vector2d& model_stddev);
+  void takeEstimate(const TopEstimate& estimate, const Eigen::Vector2d& model_stddev);
 
   /// Takes in the temperature of the strut's damper [deg C], which counts for health/oldest_data.
   void addTemperature(Stamp stamp, double celsius);
@@ -80,7 +80,7 @@ class SuspensionMonitor {
   /// @return as ModelTracker::overTheDrive(), of the model with effects if there is one.
   StrutEstimate overTheDrive() { return (extended_ ? *extended_ : plain_).overTheDrive(); }
   /// @param plain  what the blocks of elsewhere say of the plain model.  @param model_stddev  as takeEstimate().
-  StrutEstimate overTheDrive(const std::optional<BlockEstimate>& plain, const Eigen::Vector2d& model_stddev) {
+  StrutEstimate overTheDrive(const std::optional<TopEstimate>& plain, const Eigen::Vector2d& model_stddev) {
     return extended_ ? extended_->overTheDrive() : plain_.judged(plain, model_stddev);
   }
 

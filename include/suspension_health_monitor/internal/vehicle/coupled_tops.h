@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
+#include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
-
-/// The tops of all struts of a body as their rows have them:
-///     z_i'' = sum_j (b1_ij d_j' + b0_ij d_j) + sum_k c_ik f_k,  d_j = w_j - z_j.
-struct TopRows {
-  Eigen::MatrixXd rate, travel;  ///< b1_ij [1/s], b0_ij [1/s^2], struts by struts
-  Eigen::MatrixXd force;         ///< c_ik, struts by known forces
-};
 
 /// Where the column of strut j is among the neighbours of strut i, as StrutBlock::neighbours has them: the rate's; the
 /// travel's is the next.

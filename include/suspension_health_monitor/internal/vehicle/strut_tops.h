@@ -7,27 +7,9 @@
 
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
 #include "suspension_health_monitor/internal/signal/motion_filter.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 
 namespace suspension_health_monitor {
-
-/// Which streams of a StreamGrid are what on a vehicle. All of them but the road must be required ones.
-struct VehicleChannels {
-  struct Strut {
-    std::size_t unsprung = 0;           ///< stream of w''
-    std::optional<std::size_t> sprung;  ///< stream of z''; none: the body's IMU tells it
-    /// Of the strut's top, from the body's IMU, or from any point of the body where every strut has its own [m].
-    std::optional<Eigen::Vector3d> position;
-  };
-  std::vector<Strut> struts;
-  /// Stream of the body's IMU that reads its acceleration along x; those along y and z, and the angular rates about x,
-  /// y, z, are the next five.
-  std::optional<std::size_t> body_imu;
-  /// Turns what the body's IMU reads into axes whose z is up, those of the positions: column i is that of its axis i.
-  Eigen::Matrix3d body_mount = Eigen::Matrix3d::Identity();
-  std::vector<std::size_t> known_forces;  ///< streams
-  std::optional<std::size_t> road;        ///< stream, that is not required: of the road under the one strut
-};
 
 /// From the streams of a vehicle to what all its struts do, some measured at the strut's top, others from one six-axis
 /// IMU anywhere on the body: with the body turning at omega, alpha = omega',

@@ -9,20 +9,21 @@
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/sliding_friction.h"
-#include "suspension_health_monitor/internal/blocks/strut_blocks.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_spectra.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
 
 namespace suspension_health_monitor {
 
-/// What the blocks tell of one strut of a body: b1 and b0 are the coefficients of its own travel at its own top, with
-/// its share of an anti-roll bar. Their covariance is that of noise and of the scatter of blocks: a change is judged by
-/// it. That of absolute values has the model's error as well (BodyFit).
-struct TopEstimate : BlockEstimate {
+/// What the blocks tell of a strut. On a body with several b1 and b0 are the coefficients of its own travel at its own
+/// top, with its share of an anti-roll bar. Their covariance is that of noise and of the scatter of blocks: a change is
+/// judged by it. That of absolute values has the model's error as well (BodyFit).
+struct TopEstimate : WindowEstimate {
+  Stamp stamp{};        ///< end of the newest block
+  double length = 0.0;  ///< T of its blocks [s]
   std::size_t strut = 0;
   double friction = 0.0;  ///< over the body's mass [m/s^2]
 
@@ -31,36 +32,43 @@ struct TopEstimate : BlockEstimate {
 };
 
 /// From the readings of all sensors of a vehicle, each on its own stamps, to estimates of every strut after every half
-/// block: VehicleSpectra -> StrutBlock -> BlockEstimator, one per strut top. The rows of a top hold the travel and
-/// travel rate of all struts, since all move it through the body, (B20) in doc/equations.md:
+/// block: VehicleSpectra -> StrutBlock -> BlockEstimator, one per strut top. Readings may come in any order between the
+/// streams, as long as none runs four blocks ahead. The blocks' length follows the bounce: from some two to
+/// kMostPeriods of it in a block.
+///
+/// Of several struts the rows of a top hold the travel and travel rate of all, since all move it through the body,
+/// (B20) in doc/equations.md:
 ///     z_i'' = sum_j a_ij F_j,  a_ij = 1/M + x_i x_j / Iyy + y_i y_j / Ixx.
 /// Instruments are what the model of all rows makes of the wheels (CoupledTops). A neighbour's columns are slow, but in
 /// proportion to its own: b_ij / b_jj = a_ij / a_jj belongs to the body, whatever wears.
 ///
-/// Work is spread: a reading that completes a half block fills the blocks, and each reading after it updates one top.
+/// Their work is spread: a reading that completes a half block fills the blocks, and each reading after it updates one
+/// top. Of a strut alone that reading brings the estimate.
 class VehicleBlocks {
  public:
   /// @param period  the longest sampling time of the streams [s].
-  VehicleBlocks(const VehicleTops& tops, const BlockOptions& options, double period);
+  /// @param effects  of a strut alone, whose forces are columns (pushEffects()); 0: dry friction is, of every strut.
+  VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions& options, double period, std::size_t effects = 0);
 
-  /// Take in one reading [m/s^2], [rad/s]. Where the stamps of a sensor go back the blocks begin anew (restart()).
+  /// Takes in one reading. Where the stamps of a sensor go back the blocks begin anew (restart()).
   /// @return an estimate that is new; nullptr: none is.
   const TopEstimate* push(const VehicleReading& reading);
   /// All readings of an instant, of struts that have two accelerometers each.
   void push(const VehicleSample& sample) {
     forReadings(sample, [this](const VehicleReading& reading) { push(reading); });
   }
-  const TopEstimate* pushWheel(std::size_t strut, Stamp stamp, double acceleration);
-  const TopEstimate* pushTop(std::size_t strut, Stamp stamp, double acceleration);
-  const TopEstimate* pushBody(Stamp stamp, const Eigen::Vector3d& acceleration, const Eigen::Vector3d& rate);
-  const TopEstimate* pushForce(std::size_t force, Stamp stamp, double value);
+  /// The effects' forces over the body's mass at one instant, by their present coefficients' unit.
+  const TopEstimate* pushEffects(Stamp stamp, const double* forces);
+  /// What both sensors of a strut alone read at one instant, if both are numbers.
+  /// @param lag  by which the body's clock is late, as far as it is known.
+  const TopEstimate* push(const CornerSample& sample, Stamp lag = {});
 
   /// @return the newest estimate of a strut; nullptr: none yet.
-  const TopEstimate* estimate(std::size_t strut) const { return has_[strut] ? &estimates_[strut] : nullptr; }
+  const TopEstimate* estimate(std::size_t strut = 0) const { return has_[strut] ? &estimates_[strut] : nullptr; }
 
-  /// @return the estimate of a strut over all blocks since restart(); nothing if they do not tell, or if tracks are too
-  /// much alike. Not for the sample path.
-  std::optional<TopEstimate> overTheDrive(std::size_t strut);
+  /// @return the estimate of a strut over all blocks, before restart(), too; nothing if they do not tell, or if tracks
+  /// are too much alike. Not for the sample path.
+  std::optional<TopEstimate> overTheDrive(std::size_t strut = 0);
 
   /// What all blocks kept say of all tops, with the data alone. Allocates when `rows` is empty.
   /// @return false: they do not know all tops.
@@ -71,51 +79,56 @@ class VehicleBlocks {
   /// path.
   std::vector<BodyRows> rowsOfHalves();
 
-  const BlockEstimator& estimator(std::size_t strut) const { return estimators_[strut]; }
-  const VehicleTops& tops() const { return tops_; }
+  const BlockEstimator& estimator(std::size_t strut = 0) const { return estimators_[strut]; }
+  const VehicleChannels& vehicle() const { return vehicle_; }
   double length() const { return length_; }  ///< T of the blocks [s]
 
   /// @return what the blocks kept say of the vehicle file, to be worked through. Allocates.
-  VehicleClaims claims() const { return claims(tops_.areOfBody() ? tops_.places() : StrutPlaces{}); }
+  VehicleClaims claims() const { return claims(isByBody() ? vehicle_.places() : StrutPlaces{}); }
   /// @param of_body_imu  where the tops are, if what is given as theirs was made of the body's IMU; else empty.
   VehicleClaims claims(const StrutPlaces& of_body_imu) const;
 
-  /// Another drive: blocks are forgotten, but to overTheDrive(); estimates stay until there are new ones.
+  /// Another drive: nothing is known any more, but to overTheDrive().
   void restart();
 
  private:
   void begin(double length);
+  std::size_t size() const { return vehicle_.struts.size(); }
+  bool isAlone() const { return size() == 1; }
+  bool isByBody() const { return vehicle_.numTopsOfBody() == size(); }
+  bool looksForFriction() const { return effects_ == 0; }
   /// Column of the travel rate of strut j in the row of strut i; that of its travel is the next.
   int columnOf(std::size_t i, std::size_t j) const {
     return j == i ? int{kBlockDamping} : columns_.firstNeighbour() + neighbourColumn(i, j);
   }
   /// Of the known forces, among the forces' columns.
-  int firstKnownForce() const { return tops_.looks_for_friction ? 1 : 0; }
-  std::optional<double> timeOf(std::size_t sensor, Stamp stamp);
+  int firstKnownForce() const { return columns_.forces - static_cast<int>(vehicle_.known_forces.size()); }
+  std::optional<double> timeOf(std::size_t stream, Stamp stamp);
   const TopEstimate* work();
   void takeBlock();
   void fillNeighbours();
   void predict(int age);
   const TopEstimate* update(std::size_t strut);
   void scaleNeighbours(std::size_t strut);
-  void finishRound();
+  void updateModel();
   void beginRows(BodyRows& rows) const;
   void setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
   void follow();
 
-  VehicleTops tops_;
+  VehicleChannels vehicle_;
+  std::size_t effects_;
   BlockOptions options_;
   double period_, length_;
   BlockColumns columns_;
   std::optional<Stamp> origin_;
   std::optional<VehicleSpectra> spectra_;
-  std::optional<CoupledTops> model_;
+  std::optional<CoupledTops> model_;        // of two struts or more
   std::vector<BlockEstimator> estimators_;  // by strut, as all that follow
   std::vector<SlidingFriction> friction_;
   std::vector<TopEstimate> estimates_;
   std::vector<bool> has_;
   std::vector<const StrutBlock*> blocks_;
-  std::vector<std::optional<Stamp>> last_;  // by sensor: wheels, tops, forces, the body's IMU
+  std::vector<std::optional<Stamp>> last_;  // by Sensor and place; then of the effects
   Modulation modulation_;
   Eigen::ArrayXXcd motions_;  // H_1, H_0 of every w'' - z''
   Eigen::ArrayXcd motion_;    // H_1 or H_0 of one w''

@@ -13,7 +13,6 @@
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -50,7 +49,7 @@ class VehicleGrid {
   const StreamGrid& streams() const { return grid_; }
 
   /// @return what is measured of the vehicle, in the axes of the readings.
-  const VehicleTops& tops() const { return measured_; }
+  const VehicleChannels& vehicle() const { return vehicle_; }
 
   /// @return how the body's IMU was found to be turned.
   const BodyLevel& bodyLevel() const { return level_; }
@@ -90,7 +89,6 @@ class VehicleGrid {
 
   Stamp period_;
   VehicleChannels vehicle_;
-  VehicleTops measured_;
   StrutTops tops_;
   BodyLevel level_;
   std::size_t level_window_ = 0;  // instants that a level is taken of

@@ -47,8 +47,8 @@ class VehicleMonitor {
       : VehicleMonitor(std::vector<Start>(settings.begin(), settings.end()), std::move(sink), num_forces) {}
 
   /// Takes in one reading of one sensor on its own stamp.
-  /// @param tops  of the vehicle; those of the first reading count.
-  void addReading(const VehicleTops& tops, const VehicleReading& reading);
+  /// @param vehicle  that of the first reading counts.
+  void addReading(const VehicleChannels& vehicle, const VehicleReading& reading);
 
   /// Takes in the next sample of the grid; gaps and clocks that go back begin a new series.
   void addGridSample(const VehicleSample& sample);
@@ -84,7 +84,7 @@ class VehicleMonitor {
 
   /// @return what fitBody() found last.
   const std::optional<BodyFitResult>& body() const { return body_; }
-  const VehicleTops* tops() const { return blocks_ ? &blocks_->tops() : nullptr; }
+  const VehicleChannels* vehicle() const { return blocks_ ? &blocks_->vehicle() : nullptr; }
 
   /// @return what fitBody() found last against the vehicle file; of one strut there is nothing.
   const VehicleMistake& mistake() const { return mistake_; }

@@ -8,7 +8,7 @@
 
 #include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
 
 namespace suspension_health_monitor {
 
@@ -20,14 +20,17 @@ namespace suspension_health_monitor {
 /// of their own. Nothing is differentiated.
 class VehicleSpectra {
  public:
-  VehicleSpectra(const BlockBand& band, const VehicleTops& tops);
+  /// @param effects  of the one strut that there is; 0: there is dry friction.
+  VehicleSpectra(const BlockBand& band, const VehicleChannels& vehicle, std::size_t effects);
 
-  /// Take in readings [m/s^2], [rad/s]; stamps of each stream increase.  @param time  since half block 0 began [s].
-  /// @param direction  of friction, -1 to 1.
-  void pushWheel(std::size_t strut, double time, double acceleration, double direction);
-  void pushTop(std::size_t strut, double time, double acceleration);
-  void pushBody(double time, const Eigen::Vector3d& acceleration, const Eigen::Vector3d& rate);
-  void pushForce(std::size_t force, double time, double value);
+  /// Takes in a reading; stamps of each sensor increase.  @param time  since half block 0 began [s].
+  /// @param direction  of friction, -1 to 1, with that of a wheel.
+  void push(const VehicleReading& reading, double time, double direction);
+  /// @param forces  of the effects, per body mass.
+  void pushEffects(double time, const double* forces) { effects_.front().push(time, forces); }
+
+  /// The next reading of every stream is its first one.
+  void restart();
 
   /// @return true if all streams are beyond this half block.
   bool isPassed(long half) const;
@@ -42,12 +45,15 @@ class VehicleSpectra {
  private:
   enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };
 
+  /// @return true if it is true of every stream.
+  template <class Predicate>
+  bool areAll(const Predicate& predicate) const;
   void fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block);
 
   BlockBand band_;
-  VehicleTops tops_;
+  VehicleChannels vehicle_;
   Modulation modulation_;
-  std::vector<FourierIntegrals> wheels_, own_, body_, forces_;
+  std::vector<FourierIntegrals> wheels_, own_, body_, forces_, effects_;
   std::vector<std::size_t> own_of_;  // by strut, in own_
   Eigen::ArrayXcd channel_, derivative_;
 };
