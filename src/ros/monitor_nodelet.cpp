@@ -73,10 +73,10 @@ LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
                      : std::vector<CornerSample>{};
   };
   host.why_none = [this] { return whyNoMonitor(); };
-  host.silent_topics = [this] { return input().silentTopics(); };
+  host.silent_topics = [this] { return input_->silentTopics(); };
   host.frame = [this, imu = placement_->streams().bodyImuOf(i)]() -> const std::string& { return imus_->frame(imu); };
   host.describe_input = [this, i](LiveStrut::Status& status) {
-    diagnostics_->input().describeStrut(i, pipeline(), placement_->missing(), status);
+    input_->describeStrut(i, pipeline(), placement_->missing(), status);
   };
   host.queue = &thread_->queue();
   host.search = [this, i](double window) {
@@ -89,23 +89,18 @@ LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
 
 void MonitorNodelet::completeAlone(LiveStrut::Host& host) {
   host.title = getName();
-  host.describe_input = [this](LiveStrut::Status& status) {
-    strut_input_->describe(*pipeline_, status);
-    input_log_->note(status);
-  };
+  host.describe_input = [this](LiveStrut::Status& status) { describeInput(status); };
   host.search = [this](double window) {
     return searchOf(strutSamples(window), [this](const Diagnosis& found) { takeDiagnosis(found); });
   };
 }
 
 void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
-  if (isAlone()) {
-    strut_input_.emplace(options_.common.shell,
-                         std::array{imus_->topic(indexOf(Side::kSprung)), imus_->topic(indexOf(Side::kUnsprung))});
-    input_log_.emplace(getName() + " input", LiveStrut::Status::ERROR, options_.common.shell.input_timeout);
-  } else {
-    diagnostics_.emplace(node, private_node, getName(), options_, *placement_, topics());
-  }
+  input_.emplace(options_, placement_->streams(), topics());
+  input_log_.emplace(getName() + " input", LiveStrut::Status::ERROR, options_.common.shell.input_timeout);
+  if (!isAlone())
+    diagnostics_.emplace(node, private_node, getName(), options_, *placement_,
+                         [this](LiveStrut::Status& status) { describeInput(status); });
   for (const auto& strut : struts_) strut->start(node, private_node);
   imus_->listen();
   forces_->listen();
@@ -160,6 +155,11 @@ void MonitorNodelet::makePipeline() {
                       [&](const Baseline& baseline) { pipeline_->setBaseline(baseline, i); });
 }
 
+void MonitorNodelet::describeInput(LiveStrut::Status& status) {
+  input_->describe(pipeline(), placement_->missing(), status);
+  input_log_->note(status);
+}
+
 void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
   if (!pipeline_ && placement_->streams().sensors[imu].place == VehicleStreams::Place::kBody)
     placement_->noteBody(message);
@@ -168,7 +168,7 @@ void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
 
 template <class Message>
 void MonitorNodelet::onMessage(std::size_t sensor, const Message& message) {
-  input().noteMessage(sensor, message.header.stamp);
+  input_->noteMessage(sensor, message.header.stamp);
   if (!pipeline_) return;
   try {
     pipeline_->push(sensor, message);
@@ -191,7 +191,7 @@ void MonitorNodelet::onReconfigure(LiveSettings& settings) {
 
 void MonitorNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
-  input().setRefusal(reason);
+  input_->setRefusal(reason);
   imus_->stop();
   forces_->stop();
 }
@@ -207,7 +207,7 @@ void MonitorNodelet::onTick() {
 std::string MonitorNodelet::reset() {
   makePipeline();
   for (const auto& strut : struts_) strut->publishModel();
-  input().restart();
+  input_->restart();
   imus_->listen();
   forces_->listen();
   return isAlone() ? "estimates, filters and counters start anew"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "imu_topics.h"
-#include "input_diagnostics.h"
+#include "input_task.h"
 #include "live_settings.h"
 #include "live_strut.h"
 #include "message_pipeline.h"
@@ -43,7 +43,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onInit() override;
 
   virtual VehicleOptions optionsFrom(const OptionMap& values) const { return VehicleOptions::ofOneStrut(values); }
-  bool isAlone() const { return options_.layout.struts.front().name.empty(); }
+  bool isAlone() const { return options_.isOneStrut(); }
 
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void startAlone(ros::NodeHandle& private_node);
@@ -54,6 +54,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::vector<std::string> topics() const;
   void makePipeline();
 
+  void describeInput(LiveStrut::Status& status);
   void onImu(std::size_t imu, const sensor_msgs::Imu& message);
   template <class Message>
   void onMessage(std::size_t sensor, const Message& message);
@@ -68,7 +69,6 @@ class MonitorNodelet : public nodelet::Nodelet {
   void stopListening(const std::string& reason);
 
   std::string whyNoMonitor() const { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
-  InputTask& input() { return isAlone() ? static_cast<InputTask&>(*strut_input_) : diagnostics_->input(); }
   const MessagePipeline* pipeline() const { return pipeline_ ? &*pipeline_ : nullptr; }
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
@@ -79,10 +79,10 @@ class MonitorNodelet : public nodelet::Nodelet {
   std::optional<MessageTopics<sensor_msgs::Temperature>> temperatures_;
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
   std::vector<std::unique_ptr<LiveStrut>> struts_;
+  std::optional<InputTask> input_;
+  std::optional<TaskLog> input_log_;
   ros::WallTimer tick_, body_;
   // Of one strut alone:
-  std::optional<InputDiagnostics> strut_input_;
-  std::optional<TaskLog> input_log_;
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
   // Of a vehicle:
   std::optional<VehicleDiagnostics> diagnostics_;

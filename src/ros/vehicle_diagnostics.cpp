@@ -19,12 +19,10 @@ const VehicleMonitor* monitorOf(const MessagePipeline* pipeline) {
 // once, so that the status of a strut would be lost behind that of the next.
 VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
                                        const VehicleOptions& options, const VehiclePlacement& placement,
-                                       const std::vector<std::string>& topics)
+                                       const std::function<void(Status&)>& describe_input)
     : placement_(placement),
       struts_(options.strutNames()),
       publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
-      input_(options.common.shell, placement.streams(), topics),
-      input_log_(name + " input", Status::ERROR, options.common.shell.input_timeout),
       coupling_log_(name + " coupling"),
       coupling_(private_node, struts_, options.forceNames()),
       corners_(CornerOutput::of(node, struts_)),
@@ -34,10 +32,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
     coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), status);
     coupling_log_.note(status);
   });
-  updater_.add("Input", [this](Status& status) {
-    input_.describe(pipeline_, placement_.missing(), status);
-    input_log_.note(status);
-  });
+  updater_.add("Input", describe_input);
   if (corners_) updater_.add("Corners", [this](Status& status) { corners_->describe(status); });
 }
 

@@ -3,6 +3,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,6 @@
 #include "coupling_output.h"
 #include "message_pipeline.h"
 #include "task_log.h"
-#include "vehicle_input.h"
 #include "vehicle_options.h"
 #include "vehicle_placement.h"
 
@@ -21,12 +21,12 @@ namespace suspension_health_monitor {
 /// ~coupling and corners/comparison.
 class VehicleDiagnostics {
  public:
-  /// @param topics  by VehicleStreams::sensors.  @param placement  outlives this object.
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  /// @param placement  outlives this object.
   VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
                      const VehicleOptions& options, const VehiclePlacement& placement,
-                     const std::vector<std::string>& topics);
-
-  VehicleInput& input() { return input_; }
+                     const std::function<void(Status&)>& describe_input);
 
   /// @param pipeline  nullptr: none, as the struts have no places yet.
   void publish(const MessagePipeline* pipeline);
@@ -35,13 +35,10 @@ class VehicleDiagnostics {
   std::string whyNoMonitor(const MessagePipeline* pipeline) const;
 
  private:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   const VehiclePlacement& placement_;
   std::vector<std::string> struts_;  // their names
   ros::Publisher publisher_;         // of all updaters, also of those of the struts
-  VehicleInput input_;
-  TaskLog input_log_, coupling_log_;
+  TaskLog coupling_log_;
   CouplingOutput coupling_;
   std::optional<CornerOutput> corners_;
   const MessagePipeline* pipeline_ = nullptr;  // during publish() only

@@ -27,6 +27,7 @@ struct VehicleOptions {
   static VehicleOptions ofOneStrut(const OptionMap& values) { return ofOneStrut(PipelineOptions::fromValues(values)); }
   static VehicleOptions ofOneStrut(const PipelineOptions& options);
 
+  bool isOneStrut() const { return layout.struts.front().name.empty(); }  ///< alone, not of a vehicle file
   std::vector<std::string> strutNames() const;
   std::vector<std::string> forceNames() const;         ///< of known forces
   std::vector<std::string> temperatureTopics() const;  ///< by strut; empty: it has no thermometer

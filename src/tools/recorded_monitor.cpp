@@ -119,8 +119,7 @@ VehicleIdentification RecordedMonitor::identified() {
 
 std::vector<std::string> RecordedMonitor::mountFaults(std::size_t strut) const {
   const std::vector<std::string> all = mountFaults();
-  std::vector<std::string> faults{all[streams_.bodyImuOf(strut)],
-                                  all[streams_.options[streams_.channels.struts[strut].unsprung].sensor]};
+  std::vector<std::string> faults{all[streams_.bodyImuOf(strut)], all[streams_.wheelImuOf(strut)]};
   faults.erase(std::remove(faults.begin(), faults.end(), ""), faults.end());
   return faults;
 }
