@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "json_of.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -82,82 +83,6 @@ void printMap(const ForceSurface& surface) {
 
 }  // namespace
 
-using nlohmann::json;
-
-static void to_json(json& into, const ResidualBin& bin) {
-  into = {{"from", bin.from}, {"to", bin.to},      {"mean", bin.mean}, {"standard_error", bin.standard_error},
-          {"rms", bin.rms},   {"count", bin.count}};
-}
-
-static void to_json(json& into, const TimeBin& bin) {
-  into = static_cast<const ResidualBin&>(bin);
-  into.update({{"drive", bin.record},
-               {"damping_error", bin.damping_error},
-               {"damping_error_stddev", bin.damping_error_stddev},
-               {"stiffness_error", bin.stiffness_error},
-               {"stiffness_error_stddev", bin.stiffness_error_stddev}});
-}
-
-static void to_json(json& into, const ResidualCorrelation& correlation) {
-  into = {{"lag", correlation.lag},
-          {"value", correlation.value},
-          {"lower", correlation.lower},
-          {"upper", correlation.upper},
-          {"share_outside", correlation.share_outside},
-          {"within", correlation.within}};
-}
-
-template <class Matrix>
-json rowsOf(const Matrix& matrix) {
-  json rows = json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(json::array());
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows.back().push_back(matrix(i, j));
-  }
-  return rows;
-}
-
-static void to_json(json& into, const ForceSurface& surface) {
-  into = {{"travel_edges", surface.travel_edges},
-          {"rate_edges", surface.rate_edges},
-          {"mean", rowsOf(surface.mean)},
-          {"standard_error", rowsOf(surface.standard_error)},
-          {"rms", rowsOf(surface.rms)},
-          {"count", rowsOf(surface.count)},
-          {"explained_share", surface.explained_share}};
-}
-
-static void to_json(json& into, const DirectionLoop& loop) {
-  into = {{"compressing", loop.compressing},
-          {"extending", loop.extending},
-          {"gap", loop.gap},
-          {"gap_standard_error", loop.gap_standard_error},
-          {"area", loop.area}};
-}
-
-static void to_json(json& into, const ResidualSpectrum& spectrum) {
-  into = {{"frequency", spectrum.frequency}, {"residual", spectrum.residual},
-          {"measured", spectrum.measured},   {"noise", spectrum.noise},
-          {"coherence", spectrum.coherence}, {"coherence_threshold", spectrum.coherence_threshold}};
-}
-
-static void to_json(json& into, const ResidualViews& views) {
-  into = {{"offset", views.offset},       {"time", views.time},
-          {"travel", views.travel},       {"travel_rate", views.travel_rate},
-          {"surface", views.surface},     {"direction", views.direction},
-          {"whiteness", views.whiteness}, {"cross_correlation", views.cross_correlation}};
-  if (views.spectrum) into["spectrum"] = *views.spectrum;
-}
-
-static void to_json(json& into, const FailureRegion& region) {
-  into = {{"region", region.region}, {"sentence", region.sentence}, {"rmse", region.rmse},
-          {"mean", region.mean},     {"share", region.share},       {"rmse_elsewhere", region.rmse_elsewhere}};
-}
-
-static void to_json(json& into, const PredictionError& error) {
-  into = {{"rmse", error.rmse}, {"fit_percent", error.fit_percent}};
-}
-
 void printComparison(const Comparison& comparison) {
   printModel(comparison);
   printErrors(comparison);
@@ -168,13 +93,14 @@ void printComparison(const Comparison& comparison) {
   printMap(comparison.views.surface);
 }
 
-json toJson(const Comparison& comparison) {
-  json model{{"parameters", parametersOf(comparison.model)}, {"fitted", !comparison.stddev.empty()}};
+nlohmann::json toJson(const Comparison& comparison) {
+  using nlohmann::json;
+  json model{{"parameters", jsonOf(comparison.model)}, {"fitted", !comparison.stddev.empty()}};
   addNumbers(comparison.model, model);
-  json free_run = comparison.free_run, one_step;
+  json free_run = jsonOf(comparison.free_run), one_step;
   free_run["held_out_rmse"] = comparison.held_out_rmse ? json(*comparison.held_out_rmse) : json();
   if (comparison.one_step) {
-    one_step = *comparison.one_step;
+    one_step = jsonOf(*comparison.one_step);
     one_step["horizon_samples"] = comparison.horizon_samples;
   }
   return {{"model", model},
@@ -182,8 +108,8 @@ json toJson(const Comparison& comparison) {
           {"one_step", one_step},
           {"noise_floor", comparison.noise_floor},
           {"structured_share", comparison.structured_share},
-          {"where", comparison.where},
-          {"views", comparison.views}};
+          {"where", jsonOf(comparison.where)},
+          {"views", jsonOf(comparison.views)}};
 }
 
 }  // namespace suspension_health_monitor

@@ -73,6 +73,15 @@ def test_stubs_are_the_classes():
     assert stubs == {}
 
 
+def test_help_tells_what_an_attribute_is():
+    """The texts of the stubs, with units."""
+    assert shm.effects()
+    assert vars(_core.StrutEstimate)["delay_stddev"].__doc__ == "[s]"
+    assert "stamped late" in vars(_core.StrutEstimate)["delay"].__doc__
+    assert "[m/s^2]" in vars(_core.Comparison)["noise_floor"].__doc__
+    assert vars(_core.TimeBins)["drive"].__doc__ == "which of the drives, from 0"
+
+
 def test_stubs_are_installed_with_the_marker():
     assert (STUB.parent / "py.typed").exists()
     assert "py.typed" in (REPOSITORY / "setup.py").read_text() and "*.pyi" in (REPOSITORY / "setup.py").read_text()
