@@ -80,7 +80,7 @@ LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
   };
   host.queue = &thread_->queue();
   host.search = [this, i](double window) {
-    return searchOf(vehicleSamples(window), i, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
+    return searchOf(samplesFor(window), i, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
   };
   host.reset = [this] { return reset(); };
   if (isAlone()) completeAlone(host);
@@ -90,9 +90,6 @@ LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
 void MonitorNodelet::completeAlone(LiveStrut::Host& host) {
   host.title = getName();
   host.describe_input = [this](LiveStrut::Status& status) { describeInput(status); };
-  host.search = [this](double window) {
-    return searchOf(strutSamples(window), [this](const Diagnosis& found) { takeDiagnosis(found); });
-  };
 }
 
 void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
@@ -130,7 +127,7 @@ void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
   });
   reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
   diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
-    return searchOf(vehicleSamples(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
+    return searchOf(samplesFor(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
   });
 }
 
@@ -220,36 +217,22 @@ bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   return true;
 }
 
-SearchTask MonitorNodelet::strutSamples(double window) const {
-  const double span = searchSpan(window, options_.common.shell.diagnose_window);
-  const SuspensionMonitor* monitor = pipeline_->strut();
-  if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
-  SearchTask task;
-  task.drive = pipeline_->newestSamples(span).struts.front();
-  task.options.sample_period = monitor->period();
-  task.options.horizon_samples = monitor->horizonSamples();
-  const LiveModel& model = struts_.front()->model();
-  task.options.candidates = model.library();
-  const StrutEstimate& estimate = monitor->modelEstimate();
-  if (!model.effects().empty() && estimate.valid())
-    task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor->effects(), {}};
-  return task;
-}
-
-VehicleSearchTask MonitorNodelet::vehicleSamples(double window) const {
+SearchTask MonitorNodelet::samplesFor(double window) const {
   const double span = searchSpan(window, options_.common.shell.diagnose_window);
   if (!pipeline_ || pipeline_->monitor() == nullptr) throw std::runtime_error(whyNoMonitor() + ": drive on");
-  VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
+  SearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
   pipeline_->grid()->describe(task.drive);
   if (task.drive.struts.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
   task.options.sample_period = pipeline_->period();
-  task.options.candidates = struts_.front()->model().library();
+  const LiveModel& model = struts_.front()->model();
+  task.options.candidates = model.library();
+  if (!isAlone()) return task;
+  const SuspensionMonitor& monitor = *pipeline_->strut();
+  task.options.horizon_samples = monitor.horizonSamples();
+  const StrutEstimate& estimate = monitor.modelEstimate();
+  if (!model.effects().empty() && estimate.valid())
+    task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor.effects(), {}};
   return task;
-}
-
-void MonitorNodelet::takeDiagnosis(const Diagnosis& found) {
-  struts_.front()->setDiagnosis(found);
-  onTick();
 }
 
 void MonitorNodelet::takeDiagnosis(const VehicleDiagnosis& found) {

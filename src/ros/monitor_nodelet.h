@@ -15,17 +15,16 @@
 
 #include "imu_topics.h"
 #include "input_task.h"
+#include "live_search.h"
 #include "live_settings.h"
 #include "live_strut.h"
 #include "message_pipeline.h"
 #include "message_topics.h"
 #include "monitor_thread.h"
-#include "strut_search.h"
 #include "task_log.h"
 #include "vehicle_diagnostics.h"
 #include "vehicle_options.h"
 #include "vehicle_placement.h"
-#include "vehicle_search.h"
 
 namespace suspension_health_monitor {
 
@@ -62,9 +61,7 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onTick();
   std::string reset();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  SearchTask strutSamples(double window) const;
-  VehicleSearchTask vehicleSamples(double window) const;
-  void takeDiagnosis(const Diagnosis& found);
+  SearchTask samplesFor(double window) const;
   void takeDiagnosis(const VehicleDiagnosis& found);
   void stopListening(const std::string& reason);
 
