@@ -50,54 +50,21 @@ void MonitorNodelet::onInit() {
 }
 
 void MonitorNodelet::addStruts() {
+  StrutHost& host = *this;
   for (std::size_t i = 0; i < options_.struts.size(); ++i) {
     const std::string& name = options_.layout.struts[i].name;
     prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
-      struts_.push_back(std::make_unique<LiveStrut>(name, options_.struts[i], options_.model_of[i], hostOf(i)));
+      struts_.push_back(std::make_unique<LiveStrut>(host, i, options_, name.empty() ? getName() : name));
     });
   }
 }
 
-LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
-  LiveStrut::Host host;
-  host.title = options_.layout.struts[i].name;
-  host.monitor = [this, i] { return pipeline_ ? pipeline_->strut(i) : nullptr; };
-  host.set_effects = [this, i](const auto& effects, const auto& strut) {
-    if (pipeline_) pipeline_->setEffects(effects, strut, i);
-  };
-  host.set_baseline = [this, i](const Baseline& baseline) {
-    if (pipeline_) pipeline_->setBaseline(baseline, i);
-  };
-  host.newest_samples = [this, i] {
-    return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window).struts[i].samples
-                     : std::vector<CornerSample>{};
-  };
-  host.why_none = [this] { return whyNoMonitor(); };
-  host.silent_topics = [this] { return input_->silentTopics(); };
-  host.frame = [this, imu = placement_->streams().bodyImuOf(i)]() -> const std::string& { return imus_->frame(imu); };
-  host.describe_input = [this, i](LiveStrut::Status& status) {
-    input_->describeStrut(i, pipeline(), placement_->missing(), status);
-  };
-  host.queue = &thread_->queue();
-  host.search = [this, i](double window) {
-    return searchOf(samplesFor(window), i, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
-  };
-  host.reset = [this] { return reset(); };
-  if (isAlone()) completeAlone(host);
-  return host;
-}
-
-void MonitorNodelet::completeAlone(LiveStrut::Host& host) {
-  host.title = getName();
-  host.describe_input = [this](LiveStrut::Status& status) { describeInput(status); };
-}
-
 void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   input_.emplace(options_, placement_->streams(), topics());
-  input_log_.emplace(getName() + " input", LiveStrut::Status::ERROR, options_.common.shell.input_timeout);
+  input_log_.emplace(getName() + " input", Status::ERROR, options_.common.shell.input_timeout);
   if (!isAlone())
     diagnostics_.emplace(node, private_node, getName(), options_, *placement_,
-                         [this](LiveStrut::Status& status) { describeInput(status); });
+                         [this](Status& status) { describeInput(status); });
   for (const auto& strut : struts_) strut->start(node, private_node);
   imus_->listen();
   forces_->listen();
@@ -147,14 +114,16 @@ void MonitorNodelet::makePipeline() {
   pipeline_.emplace(
       options_, *placed, &imus_->transforms(),
       [this](std::size_t strut, const MonitorReport& report) { struts_[strut]->publish(report); }, true);
-  for (std::size_t i = 0; i < struts_.size(); ++i)
-    struts_[i]->begin([&](const auto& effects, const auto& strut) { pipeline_->setEffects(effects, strut, i); },
-                      [&](const Baseline& baseline) { pipeline_->setBaseline(baseline, i); });
+  for (const auto& strut : struts_) strut->begin(*pipeline_);
 }
 
-void MonitorNodelet::describeInput(LiveStrut::Status& status) {
+void MonitorNodelet::describeInput(Status& status) {
   input_->describe(pipeline(), placement_->missing(), status);
   input_log_->note(status);
+}
+
+void MonitorNodelet::describeInput(std::size_t strut, Status& status) {
+  isAlone() ? describeInput(status) : input_->describeStrut(strut, pipeline(), placement_->missing(), status);
 }
 
 void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
@@ -217,7 +186,11 @@ bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   return true;
 }
 
-SearchTask MonitorNodelet::samplesFor(double window) const {
+DiagnoseService<Diagnose>::Search MonitorNodelet::searchFor(std::size_t strut, double window) {
+  return searchOf(samplesFor(window), strut, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
+}
+
+SearchTask MonitorNodelet::samplesFor(double window) {
   const double span = searchSpan(window, options_.common.shell.diagnose_window);
   if (!pipeline_ || pipeline_->monitor() == nullptr) throw std::runtime_error(whyNoMonitor() + ": drive on");
   SearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};

@@ -32,7 +32,7 @@ namespace suspension_health_monitor {
 /// name, and how the struts move one another. One strut alone is a vehicle with one strut, whose topics are those of
 /// the node and whose settings may change while it runs. Every callback comes from one thread, that of all monitors of
 /// the process, so nothing here needs a lock; ~diagnose works beside it.
-class MonitorNodelet : public nodelet::Nodelet {
+class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
  public:
   ~MonitorNodelet() override;
 
@@ -48,25 +48,31 @@ class MonitorNodelet : public nodelet::Nodelet {
   void startAlone(ros::NodeHandle& private_node);
   void startVehicle(ros::NodeHandle& private_node);
   void addStruts();
-  LiveStrut::Host hostOf(std::size_t i);
-  void completeAlone(LiveStrut::Host& host);
   std::vector<std::string> topics() const;
   void makePipeline();
 
-  void describeInput(LiveStrut::Status& status);
+  void describeInput(Status& status);
   void onImu(std::size_t imu, const sensor_msgs::Imu& message);
   template <class Message>
   void onMessage(std::size_t sensor, const Message& message);
   void onReconfigure(LiveSettings& settings);
   void onTick();
-  std::string reset();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  SearchTask samplesFor(double window) const;
+  SearchTask samplesFor(double window);
   void takeDiagnosis(const VehicleDiagnosis& found);
   void stopListening(const std::string& reason);
 
-  std::string whyNoMonitor() const { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
-  const MessagePipeline* pipeline() const { return pipeline_ ? &*pipeline_ : nullptr; }
+  // As its struts see it:
+  MessagePipeline* pipeline() override { return pipeline_ ? &*pipeline_ : nullptr; }
+  std::string whyNoMonitor() override { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
+  std::vector<std::string> silentTopics() const override { return input_->silentTopics(); }
+  const std::string& frameOf(std::size_t strut) const override {
+    return imus_->frame(placement_->streams().bodyImuOf(strut));
+  }
+  void describeInput(std::size_t strut, Status& status) override;
+  DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) override;
+  std::string reset() override;
+  ros::CallbackQueueInterface& queue() override { return thread_->queue(); }
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
