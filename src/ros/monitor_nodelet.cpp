@@ -20,9 +20,7 @@ MonitorNodelet::~MonitorNodelet() {
   diagnose_.reset();
   tick_.stop();
   body_.stop();
-  imus_.reset();
-  forces_.reset();
-  temperatures_.reset();
+  topics_.reset();
   reset_.shutdown();
   struts_.clear();
 }
@@ -32,17 +30,14 @@ void MonitorNodelet::onInit() {
   startOrRefuse(private_node, [&] {
     options_ = optionsFrom(readParameters(private_node));
     placement_.emplace(options_.layout);
-    const std::vector<std::string> imus = placement_->streams().topicsOfImus();
-    imus_.emplace(node, imus, !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(),
-                  [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); });
-    forces_.emplace(node, placement_->streams().topicsOfForces(),
-                    [this, first = imus.size()](std::size_t force, const geometry_msgs::WrenchStamped& message) {
-                      onMessage(first + force, message);
-                    });
-    temperatures_.emplace(node, options_.temperatureTopics(),
-                          [this](std::size_t strut, const sensor_msgs::Temperature& message) {
-                            if (pipeline_) pipeline_->push(strut, message);
-                          });
+    SensorTopics::Sinks sinks{
+        [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); },
+        [this](std::size_t force, const geometry_msgs::WrenchStamped& message) { onMessage(force, message); },
+        [this](std::size_t strut, const sensor_msgs::Temperature& message) {
+          if (pipeline_) pipeline_->push(strut, message);
+        }};
+    topics_.emplace(node, placement_->streams(), options_.temperatureTopics(),
+                    !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(), sinks);
     addStruts();
     makePipeline();
   });
@@ -60,15 +55,13 @@ void MonitorNodelet::addStruts() {
 }
 
 void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
-  input_.emplace(options_, placement_->streams(), topics());
+  input_.emplace(options_, placement_->streams(), topics_->names());
   input_log_.emplace(getName() + " input", Status::ERROR, options_.common.shell.input_timeout);
   if (!isAlone())
     diagnostics_.emplace(node, private_node, getName(), options_, *placement_,
                          [this](Status& status) { describeInput(status); });
   for (const auto& strut : struts_) strut->start(node, private_node);
-  imus_->listen();
-  forces_->listen();
-  temperatures_->listen();
+  topics_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
@@ -76,7 +69,7 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
 void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
   const MonitorOptions& options = options_.struts.front().monitor;
   NODELET_INFO("listens to %s (body) and %s (wheel); sample period %s, horizon %g s, memory %g s; health against %s",
-               imus_->topic(indexOf(Side::kSprung)).c_str(), imus_->topic(indexOf(Side::kUnsprung)).c_str(),
+               topics_->names()[indexOf(Side::kSprung)].c_str(), topics_->names()[indexOf(Side::kUnsprung)].c_str(),
                options.sample_period ? formatted("%g s", *options.sample_period).c_str() : "measured",
                MonitorSettings(options).presentHorizon(), MonitorSettings(options).presentMemory(),
                struts_.front()->baseline().reference(options).c_str());
@@ -88,7 +81,7 @@ void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
 
 void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
   NODELET_INFO("%zu struts (%s) listen to %s", struts_.size(), join(options_.strutNames(), ", ").c_str(),
-               join(topics(), ", ").c_str());
+               join(topics_->names(), ", ").c_str());
   body_ = private_node.createWallTimer(ros::WallDuration(kBodyPeriod), [this](const ros::WallTimerEvent&) {
     if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
   });
@@ -98,21 +91,12 @@ void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
   });
 }
 
-std::vector<std::string> MonitorNodelet::topics() const {
-  std::vector<std::string> topics;
-  const VehicleStreams& streams = placement_->streams();
-  const std::size_t num_imus = streams.topicsOfImus().size();
-  for (std::size_t i = 0; i < streams.sensors.size(); ++i)
-    topics.push_back(i < num_imus ? imus_->topic(i) : forces_->name(i - num_imus));
-  return topics;
-}
-
 void MonitorNodelet::makePipeline() {
   pipeline_.reset();
-  const std::optional<VehicleStreams> placed = placement_->find(options_.common.shell, imus_->transforms());
+  const std::optional<VehicleStreams> placed = placement_->find(options_.common.shell, topics_->transforms());
   if (!placed) return;
   pipeline_.emplace(
-      options_, *placed, &imus_->transforms(),
+      options_, *placed, &topics_->transforms(),
       [this](std::size_t strut, const MonitorReport& report) { struts_[strut]->publish(report); }, true);
   for (const auto& strut : struts_) strut->begin(*pipeline_);
 }
@@ -158,8 +142,7 @@ void MonitorNodelet::onReconfigure(LiveSettings& settings) {
 void MonitorNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
   input_->setRefusal(reason);
-  imus_->stop();
-  forces_->stop();
+  topics_->stop();
 }
 
 void MonitorNodelet::onTick() {
@@ -174,8 +157,7 @@ std::string MonitorNodelet::reset() {
   makePipeline();
   for (const auto& strut : struts_) strut->publishModel();
   input_->restart();
-  imus_->listen();
-  forces_->listen();
+  topics_->listen();
   return isAlone() ? "estimates, filters and counters start anew"
                    : "estimates, coupling, filters and counters of the whole vehicle start anew";
 }

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <dynamic_reconfigure/server.h>
-#include <geometry_msgs/WrenchStamped.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
-#include <sensor_msgs/Temperature.h>
 #include <std_srvs/Trigger.h>
 
 #include <memory>
@@ -13,14 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "imu_topics.h"
 #include "input_task.h"
 #include "live_search.h"
 #include "live_settings.h"
 #include "live_strut.h"
 #include "message_pipeline.h"
-#include "message_topics.h"
 #include "monitor_thread.h"
+#include "sensor_topics.h"
 #include "task_log.h"
 #include "vehicle_diagnostics.h"
 #include "vehicle_options.h"
@@ -48,7 +45,6 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   void startAlone(ros::NodeHandle& private_node);
   void startVehicle(ros::NodeHandle& private_node);
   void addStruts();
-  std::vector<std::string> topics() const;
   void makePipeline();
 
   void describeInput(Status& status);
@@ -67,7 +63,7 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   std::string whyNoMonitor() override { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
   std::vector<std::string> silentTopics() const override { return input_->silentTopics(); }
   const std::string& frameOf(std::size_t strut) const override {
-    return imus_->frame(placement_->streams().bodyImuOf(strut));
+    return topics_->frame(placement_->streams().bodyImuOf(strut));
   }
   void describeInput(std::size_t strut, Status& status) override;
   DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) override;
@@ -77,9 +73,7 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
   std::optional<VehiclePlacement> placement_;
-  std::optional<ImuTopics> imus_;
-  std::optional<MessageTopics<geometry_msgs::WrenchStamped>> forces_;
-  std::optional<MessageTopics<sensor_msgs::Temperature>> temperatures_;
+  std::optional<SensorTopics> topics_;
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
   std::vector<std::unique_ptr<LiveStrut>> struts_;
   std::optional<InputTask> input_;
