@@ -43,8 +43,8 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
   }
 }
 
-std::vector<HealthContent::Recording> RecordedMonitor::read() {
-  std::vector<HealthContent::Recording> recordings;
+std::vector<RecordedMonitor::Recording> RecordedMonitor::read() {
+  std::vector<Recording> recordings;
   const auto take = [this](std::size_t sensor, const auto& message, Stamp recorded) {
     if (sensor < numNeeded())
       for (HealthLog& log : logs_) log.addReading(sensor, toStamp(message.header.stamp), recorded);
