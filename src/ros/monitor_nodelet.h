@@ -21,7 +21,7 @@
 #include "task_log.h"
 #include "vehicle_diagnostics.h"
 #include "vehicle_options.h"
-#include "vehicle_placement.h"
+#include "vehicle_sensors.h"
 
 namespace suspension_health_monitor {
 

@@ -13,7 +13,7 @@
 #include "message_pipeline.h"
 #include "task_log.h"
 #include "vehicle_options.h"
-#include "vehicle_placement.h"
+#include "vehicle_sensors.h"
 
 namespace suspension_health_monitor {
 
