@@ -1,5 +1,4 @@
 #include "bindings.h"
-#include "options.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
@@ -77,8 +76,14 @@ void bindModel(py::module& module) {
       .add("settings", &settingsOf)
       .def("yaml", py::overload_cast<const StrutModel&>(&toYaml),
            "The text of a model file: for model_file, `--model` and model=.");
-  module.def("to_model", &toModel, py::arg("model"), py::arg("library"),
-             "A StrutModel of one, of a dict of settings, or None.");
+  module.def(
+      "to_model",
+      [](OptionMap settings, const EffectLibrary& library) {
+        StrutModel model = takeModel(settings, library);
+        refuseUnknown(settings, {});
+        return model;
+      },
+      py::arg("settings"), py::arg("library"), "The StrutModel that settings are, by their full names.");
 
   ResultClass<EffectLibrary>(module, "EffectLibrary", "What may be missing from a model: names, laws and findings.")
       .add("effects", &describeEffects)

@@ -92,8 +92,8 @@ void bindSimulation(py::module& module) {
       .addColumn("road_height", &Simulation::truth, &DriveTruth::road_height);
   module.def(
       "simulator_keywords",
-      [](const py::dict& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
-        if (of_vehicle) return Keywords{toSettings(keywords)};  // who makes the vehicle knows its options
+      [](const OptionMap& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
+        if (of_vehicle) return Keywords{keywords};  // who makes the vehicle knows its options
         return takeKeywords(keywords, SimulatorOptions::describe(), arguments);
       },
       py::arg("keywords"), py::arg("of_vehicle"), py::arg("arguments"));
