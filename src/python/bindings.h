@@ -19,7 +19,6 @@ namespace suspension_health_monitor {
 // Each adds its classes and functions to the compiled part of the Python module.
 void bindModel(pybind11::module& module);
 void bindReports(pybind11::module& module);
-void bindViews(pybind11::module& module);
 void bindResults(pybind11::module& module);
 void bindWork(pybind11::module& module);
 void bindSimulation(pybind11::module& module);

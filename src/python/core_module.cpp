@@ -28,7 +28,6 @@ PYBIND11_MODULE(_core, module) {
       "The keywords of a call by the options' full names; refuses an unknown one, naming the nearest.");
   bindModel(module);
   bindReports(module);
-  bindViews(module);
   bindResults(module);
   bindWork(module);
   bindSimulation(module);
