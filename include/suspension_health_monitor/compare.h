@@ -21,7 +21,7 @@ struct PredictionError {
 /// A free run beside the measurement over one segment of a drive: what every plot over time is made of.
 /// All vectors have one entry per sample.
 struct ComparedSegment {
-  std::size_t record = 0;             ///< which of the drives, from 0
+  std::size_t drive = 0;              ///< which of the drives, from 0
   double start = 0.0;                 ///< time of the first sample since the start of that drive [s]
   double driven_before = 0.0;         ///< how long the drives before it are [s]
   double period = 0.0;                ///< T [s]
@@ -67,7 +67,7 @@ struct FailureRegion {
   double share = 1.0;                     ///< of the samples
   double from = 0.0, to = 0.0;  ///< edges: time [s], travel [m], rate [m/s] or frequency [Hz]; of kSurface the travel
   double rate_from = 0.0, rate_to = 0.0;  ///< kSurface: edges of the travel rate [m/s]
-  std::size_t record = 0;                 ///< kTime: which of the drives, from 0
+  std::size_t drive = 0;                  ///< kTime: which of the drives, from 0
   Drift drift = Drift::kNone;
   double first_third = 0.0, last_third = 0.0;  ///< of a drift: by how much the parameter differs, of its value
   double coherence = 0.0;                      ///< kFrequency: of residual and w'' in the band, 0 .. 1

@@ -22,7 +22,7 @@ struct ResidualBin {
 /// A stretch of time of one drive, and by how much the strut's own numbers seem to differ from the model's in it:
 /// least squares of the missing force on (v, d). A drift shows as a slope over the stretches.
 struct TimeBin : ResidualBin {
-  std::size_t record = 0;
+  std::size_t drive = 0;
   double damping_error = 0.0, damping_error_stddev = 0.0;      ///< to be added to b1 [1/s]
   double stiffness_error = 0.0, stiffness_error_stddev = 0.0;  ///< to be added to b0 [1/s^2]
 };

@@ -88,7 +88,8 @@ struct SeparatedVehicle {
 };
 
 /// @param drives  of one vehicle, each with all of its struts.
-/// @param names  of the struts, for what is said of them.
+/// @param names  of the struts, for what is said of them; a single empty one: a strut alone, whose drives stay as they
+/// are.
 /// @param sample_period  T [s]; nothing: the median spacing of the samples.
 /// @throws std::invalid_argument  if there is no drive or no strut, if the struts of a drive have not the same stamps
 /// and its forces not a value for each, if drives have not the same forces, or for a period that is not above 0; for
@@ -129,7 +130,8 @@ struct VehicleDiagnosis {
 };
 
 /// diagnose() for every strut of a vehicle. An effect in one strut shows in others: what was found in the strut where
-/// it explains most is taken out of them, before they are searched again, until nothing more is found.
+/// it explains most is taken out of them, before they are searched again, until nothing more is found. For a strut
+/// alone it is diagnose().
 /// @param options  by strut, or those of all, or none; sample_period and progress are those of the first.
 /// @throws std::invalid_argument  as separateVehicle() and diagnose(); for options of another number of struts.
 VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,

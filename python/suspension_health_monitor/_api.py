@@ -2,7 +2,7 @@
 import os
 from typing import Any, Dict, List, Optional, Union, overload
 
-from . import _core, _html, _plain, _plots
+from . import _core, _docs, _html, _plain, _plots
 from ._core import Baseline, Comparison, Diagnosis, Effect, Health, Identification, Simulation, StrutModel
 from ._models import healthy_strut, library, model_file, to_model
 from ._monitors import StrutMonitor, VehicleMonitor
@@ -205,6 +205,7 @@ def _flags(**values):
             for name, value in values.items() if value is not None]
 
 
+_docs.install()
 _html.install()
 _plots.install()
 _plain.install()

@@ -1,4 +1,4 @@
-"""The classes of the results. They cannot be changed; what an attribute is, and its unit, help() tells."""
+"""The classes of the results. They cannot be changed; help() tells what stands behind an attribute here."""
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
@@ -9,244 +9,244 @@ def __getattr__(name: str) -> Any: ...  # what only the wrapper calls
 
 class Baseline:
     def __init__(self, damping_to_mass: Optional[float] = ..., stiffness_to_mass: Optional[float] = ...) -> None: ...
-    damping_scatter: float
-    damping_to_mass: Optional[float]
-    damping_to_mass_stddev: float
-    friction: Optional[DryFriction]
-    learned: bool
-    learned_from: float
-    learned_to: float
-    stiffness_scatter: float
-    stiffness_to_mass: Optional[float]
-    stiffness_to_mass_stddev: float
-    temperature: Optional[DamperTemperature]
+    damping_scatter: float  # of healthy windows beyond that [1/s]
+    damping_to_mass: Optional[float]  # b1 [1/s], or None
+    damping_to_mass_stddev: float  # [1/s]; 0 of a given value
+    friction: Optional[DryFriction]  # when it was learned, or None: not known
+    learned: bool  # from a drive
+    learned_from: float  # stamp of its begin [s]
+    learned_to: float  # stamp of its end [s]
+    stiffness_scatter: float  # [1/s^2]
+    stiffness_to_mass: Optional[float]  # b0 [1/s^2], or None
+    stiffness_to_mass_stddev: float  # [1/s^2]
+    temperature: Optional[DamperTemperature]  # how damping goes with the damper's, or None: not known
 
 class ComparedSegment:
-    added_force: Numbers
-    drive: int
-    measured: Numbers
-    missing_force: Numbers
-    period: float
-    predicted: Numbers
-    time: Numbers
-    travel: Numbers
-    travel_rate: Numbers
-    wheel: Numbers
+    added_force: Numbers  # the effects' part of the model [m/s^2]
+    drive: int  # which of the drives, from 0
+    measured: Numbers  # z'' less the mean w'' [m/s^2]
+    missing_force: Numbers  # what the model lacks, per unit mass [m/s^2]
+    period: float  # T [s]
+    predicted: Numbers  # by the free run [m/s^2]
+    time: Numbers  # since the start of the drive [s]
+    travel: Numbers  # of the free run, compression positive [m]
+    travel_rate: Numbers  # [m/s]
+    wheel: Numbers  # w'' less its mean [m/s^2]
 
 class Comparison:
     fitted: bool
-    free_run: PredictionError
-    held_out_rmse: Optional[float]
-    horizon_samples: int
-    model: StrutModel
-    noise_floor: float
-    one_step: Optional[PredictionError]
-    segments: List[ComparedSegment]
-    stddev: List[float]
-    structured_share: float
+    free_run: PredictionError  # z'' predicted from w'' alone
+    held_out_rmse: Optional[float]  # on blocks that no fit has seen [m/s^2], or None
+    horizon_samples: int  # L of these rows
+    model: StrutModel  # as it was compared
+    noise_floor: float  # what sensor noise alone leaves [m/s^2]
+    one_step: Optional[PredictionError]  # rows of the regression with the same numbers, or None
+    segments: List[ComparedSegment]  # for plots over time
+    stddev: List[float]  # of its numbers, in their order; empty if they were given
+    structured_share: float  # share of the error that is not noise
     views: ResidualViews
-    where: List[FailureRegion]
+    where: List[FailureRegion]  # worst first
     def plot(self, axes: Any = ...) -> Any: ...
     def _repr_html_(self) -> str: ...
 
 class ComparisonReport:
     base_fit_percent: float
-    base_rmse: float
+    base_rmse: float  # of the model without effects [m/s^2]
     fit_percent: float
-    measured: float
-    predicted: Optional[float]
-    rmse: float
+    measured: float  # z'' [m/s^2]
+    predicted: Optional[float]  # [m/s^2], or None until the free run has settled
+    rmse: float  # over comparison_window [m/s^2]
 
 class Course:
-    damping_to_mass: Numbers
-    damping_to_mass_stddev: Numbers
-    fit_percent: Numbers
-    la_damping_to_mass: Numbers
-    la_stiffness_to_mass: Numbers
-    level: Numbers
-    ls_damping_to_mass: Numbers
-    ls_stiffness_to_mass: Numbers
-    rmse: Numbers
-    stiffness_to_mass: Numbers
-    stiffness_to_mass_stddev: Numbers
-    time: Numbers
-    valid: Numbers
+    damping_to_mass: Numbers  # of estimate [1/s]
+    damping_to_mass_stddev: Numbers  # [1/s]
+    fit_percent: Numbers  # of the free run
+    la_damping_to_mass: Numbers  # of la [1/s]
+    la_stiffness_to_mass: Numbers  # of la [1/s^2]
+    level: Numbers  # 0 OK, 1 WARN, 2 ERROR, 3 STALE
+    ls_damping_to_mass: Numbers  # of ls [1/s]
+    ls_stiffness_to_mass: Numbers  # of ls [1/s^2]
+    rmse: Numbers  # of the free run [m/s^2]
+    stiffness_to_mass: Numbers  # of estimate [1/s^2]
+    stiffness_to_mass_stddev: Numbers  # [1/s^2]
+    time: Numbers  # [s]
+    valid: Numbers  # of estimate
 
 class DamperTemperature:
-    celsius: float
-    per_kelvin: float
-    per_kelvin_stddev: float
+    celsius: float  # at which the baseline's damping holds
+    per_kelvin: float  # change of ln damping [1/K]
+    per_kelvin_stddev: float  # [1/K]
 
 class Diagnosis:
-    base: RankedModel
+    base: RankedModel  # the model that the search started with, fitted
     base_fit_percent: float
-    change: str
-    explained_share: float
-    extended: Optional[RankedModel]
+    change: str  # against nominal values, in a sentence; empty: none are given
+    explained_share: float  # of the structure, by the effects named
+    extended: Optional[RankedModel]  # the model with what was found, as judged, or None
     extended_fit_percent: float
-    final_fit: Optional[FittedModel]
-    indistinguishable: List[List[str]]
-    model: StrutModel
-    noise_floor: float
-    not_tried: List[Tuple[str, str]]
-    ranking: List[RankedModel]
-    remainder: str
-    selected: List[str]
-    structured_share: float
-    suggested_drive: str
-    summary: str
-    surface_share: float
-    verdict: str
+    final_fit: Optional[FittedModel]  # the same fitted to all samples, or None
+    indistinguishable: List[List[str]]  # groups that these drives cannot tell apart
+    model: StrutModel  # to go on with: final_fit's, or the base's
+    noise_floor: float  # [m/s^2]
+    not_tried: List[Tuple[str, str]]  # (name, why) of candidates that these drives cannot tell
+    ranking: List[RankedModel]  # single effects, best first
+    remainder: str  # what a suspect leaves, in a sentence
+    selected: List[str]  # names of what is to be added to the model
+    structured_share: float  # of the base's error that is not noise
+    suggested_drive: str  # what to record next
+    summary: str  # the verdict in a sentence
+    surface_share: float  # that a force over travel and rate would take
+    verdict: str  # effect_found, suspect, nothing_missing or unexplained
     def plot(self, axes: Any = ...) -> Any: ...
     def _repr_html_(self) -> str: ...
 
 class DirectionLoop:
-    area: float
+    area: float  # [m^2/s^2]
     compressing: ResidualBins
     extending: ResidualBins
-    gap: float
-    gap_standard_error: float
+    gap: float  # [m/s^2]
+    gap_standard_error: float  # [m/s^2]
 
 class DryFriction:
-    damping_covariance: float
-    damping_gain: float
-    force: float
-    stddev: float
+    damping_covariance: float  # of the errors of b1 and force [m/s^3]
+    damping_gain: float  # what 1 m/s^2 of it acts as of b1 on this road [s/m]
+    force: float  # over the body's mass [m/s^2]
+    stddev: float  # [m/s^2]
 
 class Effect:
-    coefficients: List[Tuple[str, str]]
-    finding: str
-    kind: str
-    law: str
+    coefficients: List[Tuple[str, str]]  # (name, unit) of each
+    finding: str  # what a workshop would find
+    kind: str  # force, or reading: a fault of the body's IMU
+    law: str  # the formula, coefficient c included
     name: str
-    shapes: List[Tuple[str, str]]
+    shapes: List[Tuple[str, str]]  # (name, unit) of each number inside the law
 
 class FailureRegion:
-    mean: float
-    region: str
-    rmse: float
-    rmse_elsewhere: float
-    sentence: str
-    share: float
+    mean: float  # missing force in the region [m/s^2]
+    region: str  # in a few words
+    rmse: float  # [m/s^2]
+    rmse_elsewhere: float  # [m/s^2]; 0 if the region is everything
+    sentence: str  # where, how often, how much, compared with elsewhere
+    share: float  # of the samples
 
 class FittedModel:
-    all_samples: bool
+    all_samples: bool  # False: fitted to two thirds of them
     model: StrutModel
-    stddev: List[float]
+    stddev: List[float]  # of its numbers, in their order
 
 class ForceSurface:
-    count: Numbers
+    count: Numbers  # samples in each cell; where 0, the others say nothing
     explained_share: float
-    mean: Numbers
-    rate_edges: Numbers
-    rms: Numbers
-    standard_error: Numbers
-    travel_edges: Numbers
+    mean: Numbers  # [m/s^2], (rows, columns)
+    rate_edges: Numbers  # [m/s], one more than columns
+    rms: Numbers  # of the residual [m/s^2]
+    standard_error: Numbers  # of the mean [m/s^2]
+    travel_edges: Numbers  # [m], one more than rows
 
 class Health:
-    baseline: Baseline
-    counts: Dict[str, int]
-    course: Course
-    early_warnings: List[HealthMoment]
-    end: HealthMoment
-    estimate: StrutEstimate
-    events: List[HealthMoment]
-    la: StrutEstimate
-    ls: StrutEstimate
-    reference: str
-    rejected: Dict[str, int]
-    seconds: Dict[str, float]
+    baseline: Baseline  # the same; of no use if nothing was given or learned
+    counts: Dict[str, int]  # changes to each level
+    course: Course  # estimates and level over time
+    early_warnings: List[HealthMoment]  # when one began
+    end: HealthMoment  # what is said at the end
+    estimate: StrutEstimate  # at the end, what the strut is judged by
+    events: List[HealthMoment]  # changes of level, in the order of time
+    la: StrutEstimate  # estimates at the end
+    ls: StrutEstimate  # estimates at the end
+    reference: str  # what the strut was judged by at the end, in words
+    rejected: Dict[str, int]  # readings that were kept out, by reason
+    seconds: Dict[str, float]  # how long each level held [s]
     def plot(self, axes: Any = ...) -> Any: ...
     def _repr_html_(self) -> str: ...
 
 class HealthMoment:
-    elapsed: float
-    level: str
-    message: str
-    time: float
+    elapsed: float  # time that the recordings have covered until then [s]
+    level: str  # OK, WARN, ERROR or STALE
+    message: str  # why
+    time: float  # its stamp [s]
 
 class HealthReport:
-    damping_change: Optional[float]
+    damping_change: Optional[float]  # relative to the healthy strut, or None
     early_warning: bool
-    learning: Optional[float]
-    level: str
-    message: str
-    payload_change: Optional[float]
+    learning: Optional[float]  # progress 0 .. 1 of learning the baseline, or None
+    level: str  # OK, WARN, ERROR or STALE
+    message: str  # in one sentence
+    payload_change: Optional[float]  # of the body's mass
     stiffness_change: Optional[float]
 
 class Identification:
-    alignment: str
-    bridged: int
-    change: str
+    alignment: str  # how readings became samples, in words
+    bridged: int  # samples made of readings around a gap
+    change: str  # against nominal values, in a sentence; empty: none are given
     clock_jumps: int
-    course: Course
-    estimate: IdentifiedStrut
+    course: Course  # estimates over time
+    estimate: IdentifiedStrut  # over the whole drive: what to trust
     gaps: int
-    horizon_samples: int
-    iv: IdentifiedStrut
-    la: IdentifiedStrut
-    ls: IdentifiedStrut
-    mean_period: float
-    now: IdentifiedStrut
-    rejected: Dict[str, int]
-    rows: int
-    sample_period: float
-    samples: int
-    sprung_mass: Optional[float]
-    tyre: Optional[Tyre]
-    warnings: List[str]
+    horizon_samples: int  # L of the integral filter
+    iv: IdentifiedStrut  # estimate, by its former name, until the next version
+    la: IdentifiedStrut  # the same by the least sum of absolute values
+    ls: IdentifiedStrut  # at the end of the drive, by least squares
+    mean_period: float  # of uninterrupted samples [s]
+    now: IdentifiedStrut  # the same at the end of the drive, as the live monitor has it
+    rejected: Dict[str, int]  # readings that were kept out, by reason
+    rows: int  # regression rows that they gave
+    sample_period: float  # T [s]
+    samples: int  # taken in
+    sprung_mass: Optional[float]  # [kg], as it was given, or None
+    tyre: Optional[Tyre]  # of a recording with a road sensor, else None
+    warnings: List[str]  # of sensors and stamps, in words
     def plot(self, axes: Any = ...) -> Any: ...
     def _repr_html_(self) -> str: ...
 
 class IdentifiedStrut:
-    age: float
-    damping_ratio: float
-    damping_to_mass: float
-    damping_to_mass_stddev: float
-    explained: float
-    natural_frequency: float
-    reason: str
-    rows: float
-    stiffness_to_mass: float
-    stiffness_to_mass_stddev: float
+    age: float  # of the newest data behind estimate [s]; else NaN
+    damping_ratio: float  # [-]
+    damping_to_mass: float  # b1 = damping/mass [1/s]
+    damping_to_mass_stddev: float  # [1/s]
+    explained: float  # share of the body's motion that the strut explains
+    natural_frequency: float  # undamped [Hz]
+    reason: str  # why it is not valid; empty if it is
+    rows: float  # regression rows, or blocks, that the estimate rests on
+    stiffness_to_mass: float  # b0 = stiffness/mass [1/s^2]
+    stiffness_to_mass_stddev: float  # [1/s^2]
     valid: bool
 
 class InputStatus:
     clock_jumps: int
     gaps: int
-    mean_period: float
+    mean_period: float  # [s]
     period_fits: bool
     unit_fits: bool
     rows: int
     samples: int
 
 class ModelNumber:
-    effect: str
-    name: str
+    effect: str  # whose it is; empty for those of the linear strut
+    name: str  # damping_to_mass, bump_stop (its coefficient), bump_stop/g (a shape)
     symbol: str
     unit: str
     value: float
 
 class MonitorReport:
     comparison: ComparisonReport
-    estimate: StrutEstimate
+    estimate: StrutEstimate  # of the newest blocks: what to trust, and health goes by
     health: HealthReport
-    la: StrutEstimate
-    ls: StrutEstimate
-    stamp: float
+    la: StrutEstimate  # by the least sum of absolute values
+    ls: StrutEstimate  # by least squares
+    stamp: float  # [s]
 
 class PredictionError:
-    fit_percent: float
-    rmse: float
+    fit_percent: float  # 100 is perfect, 0 no better than a constant
+    rmse: float  # [m/s^2]
 
 class RankedModel:
-    effects: List[str]
-    error_removed_percent: float
-    failure: str
-    fitted: bool
-    held_out_rmse: float
+    effects: List[str]  # names of all that is in it
+    error_removed_percent: float  # of the mean square before
+    failure: str  # why there is no such model; empty if there is
+    fitted: bool  # False: by the linear response only
+    held_out_rmse: float  # [m/s^2]
     model: StrutModel
-    significance: float
+    significance: float  # t of the improvement
     significant: bool
 
 class ResidualBins:
@@ -259,95 +259,95 @@ class ResidualBins:
     to: Numbers
 
 class ResidualCorrelation:
-    lag: Numbers
-    lower: Numbers
-    share_outside: float
-    upper: Numbers
-    value: Numbers
-    within: bool
+    lag: Numbers  # [s]
+    lower: Numbers  # end of the 95 % band
+    share_outside: float  # of the lags
+    upper: Numbers  # end of the 95 % band
+    value: Numbers  # -1 .. 1
+    within: bool  # no more lags outside than chance puts there
 
 class ResidualSpectrum:
-    coherence: Numbers
+    coherence: Numbers  # of residual and w'', 0 .. 1
     coherence_threshold: float
-    frequency: Numbers
-    measured: Numbers
-    noise: Numbers
-    residual: Numbers
+    frequency: Numbers  # [Hz]
+    measured: Numbers  # of z'' [(m/s^2)^2/Hz]
+    noise: Numbers  # what the sensors' noise leaves [(m/s^2)^2/Hz]
+    residual: Numbers  # [(m/s^2)^2/Hz]
 
 class ResidualViews:
-    cross_correlation: ResidualCorrelation
+    cross_correlation: ResidualCorrelation  # residual against w''
     direction: DirectionLoop
     num_samples: int
-    offset: float
-    offset_standard_error: float
-    rms: float
-    spectrum: Optional[ResidualSpectrum]
+    offset: float  # mean residual, taken off in all views [m/s^2]
+    offset_standard_error: float  # [m/s^2]
+    rms: float  # of what is left [m/s^2]
+    spectrum: Optional[ResidualSpectrum]  # None if no segment is long enough
     surface: ForceSurface
     time: TimeBins
     travel: ResidualBins
     travel_rate: ResidualBins
-    whiteness: ResidualCorrelation
+    whiteness: ResidualCorrelation  # residual against itself
 
 class Simulation:
-    across: Numbers
-    body: Numbers
-    damping_to_mass: Numbers
-    road: Numbers
-    road_height: Numbers
-    stamps_body: Numbers
-    stamps_road: Numbers
-    stamps_wheel: Numbers
-    stiffness_to_mass: Numbers
-    time: Numbers
-    travel: Numbers
-    travel_rate: Numbers
-    wheel: Numbers
+    across: Numbers  # a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, (readings, 4); NaN: it has none
+    body: Numbers  # what it reads up along the strut, gravity included [m/s^2]
+    damping_to_mass: Numbers  # b1 [1/s]
+    road: Numbers  # what it reads up along the strut, gravity included [m/s^2]
+    road_height: Numbers  # [m]
+    stamps_body: Numbers  # [s], one per reading
+    stamps_road: Numbers  # [s], one per reading
+    stamps_wheel: Numbers  # [s], one per reading
+    stiffness_to_mass: Numbers  # b0 [1/s^2]
+    time: Numbers  # of the truth [s]
+    travel: Numbers  # compression positive [m]
+    travel_rate: Numbers  # [m/s]
+    wheel: Numbers  # what it reads up along the strut, gravity included [m/s^2]
     def plot(self, axes: Any = ...) -> Any: ...
     def _repr_html_(self) -> str: ...
 
 class StrutEstimate:
-    age: float
-    coefficients: Numbers
-    correlation: float
-    damping_ratio: float
-    damping_to_mass: float
-    damping_to_mass_stddev: float
-    delay: float
-    delay_stddev: float
-    explained: float
-    friction: Optional[DryFriction]
-    gain: float
-    gain_stddev: float
-    natural_frequency: float
-    offset: float
-    reason: str
-    rows: float
-    stiffness_to_mass: float
-    stiffness_to_mass_stddev: float
+    age: float  # of the data behind estimate, on average [s]; else NaN
+    coefficients: Numbers  # of the effects in the model, in their order
+    correlation: float  # of the errors of b1 and b0 [-]; of estimate
+    damping_ratio: float  # [-]
+    damping_to_mass: float  # b1 = damping/mass [1/s]
+    damping_to_mass_stddev: float  # [1/s]
+    delay: float  # by which the wheel carrier's readings are stamped late [s]; of estimate, else NaN
+    delay_stddev: float  # [s]
+    explained: float  # share of the body's motion that the strut explains
+    friction: Optional[DryFriction]  # of estimate without other effects, or None
+    gain: float  # of the body's sensor over that of the wheel's, less 1 [-]
+    gain_stddev: float  # [-]
+    natural_frequency: float  # undamped [Hz]
+    offset: float  # of the wheel carrier's reading against the body's [m/s^2]; of ls and la, else NaN
+    reason: str  # why it is not valid; empty if it is
+    rows: float  # of estimate blocks, else regression rows in the memory
+    stiffness_to_mass: float  # b0 = stiffness/mass [1/s^2]
+    stiffness_to_mass_stddev: float  # [1/s^2]
     valid: bool
-    window: float
+    window: float  # time that they span [s]; else NaN
 
 class StrutModel:
-    damping_to_mass: float
-    effects: List[str]
-    numbers: List[ModelNumber]
-    settings: Dict[str, Any]
-    stiffness_to_mass: float
+    damping_to_mass: float  # b1 [1/s]
+    effects: List[str]  # Names of the effects in it.
+    numbers: List[ModelNumber]  # All numbers: b1, b0, then effect by effect.
+    settings: Dict[str, Any]  # As a dict, which model= takes as well.
+    stiffness_to_mass: float  # b0 [1/s^2]
     def yaml(self) -> str: ...
     def _repr_html_(self) -> str: ...
 
 class TimeBins:
     def __len__(self) -> int: ...
     count: Numbers
-    damping_error: Numbers
-    damping_error_stddev: Numbers
-    drive: Numbers
+    damping_error: Numbers  # to be added to b1 [1/s]
+    damping_error_stddev: Numbers  # [1/s]
+    drive: Numbers  # which of the drives, from 0
     from_: Numbers
     mean: Numbers
     rms: Numbers
     standard_error: Numbers
-    stiffness_error: Numbers
-    stiffness_error_stddev: Numbers
+    stiffness_error: Numbers  # to be added to b0 [1/s^2]
+    stiffness_error_stddev: Numbers  # [1/s^2]
     to: Numbers
 
 class Tyre:
@@ -355,8 +355,11 @@ class Tyre:
     ls: WheelEstimate
 
 class WheelEstimate:
-    damping_to_wheel_mass: float
-    stiffness_to_wheel_mass: float
-    tyre_to_wheel_mass: float
+    damping_to_wheel_mass: float  # [1/s]
+    damping_to_wheel_mass_stddev: float  # [1/s]
+    stiffness_to_wheel_mass: float  # [1/s^2]
+    stiffness_to_wheel_mass_stddev: float  # [1/s^2]
+    tyre_to_wheel_mass: float  # [1/s^2]
+    tyre_to_wheel_mass_stddev: float  # [1/s^2]
     valid: bool
-    wheel_hop_frequency: float
+    wheel_hop_frequency: float  # [Hz]

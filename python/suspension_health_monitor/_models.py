@@ -7,7 +7,7 @@ from typing import Any
 from . import _core
 from ._plain import Restored
 from ._recording import is_path
-from ._settings import files
+from ._settings import files, flattened
 
 
 def library(effects_file: Any = None) -> _core.EffectLibrary:
@@ -20,7 +20,13 @@ def to_model(model: Any, effects_file: Any = None) -> Any:
     known = library(effects_file)
     if is_path(model):
         return files().read_model(os.fspath(model), known)
-    return _core.to_model(model.settings if isinstance(model, Restored) else model, known)
+    if isinstance(model, Restored):
+        model = model.settings
+    if model is None or isinstance(model, _core.StrutModel):
+        return model
+    if not isinstance(model, dict):
+        raise ValueError(f"model = {model!r}, must be a StrutModel, a dict of settings or the path of a model file")
+    return _core.to_model(flattened(model), known)
 
 
 def healthy_strut(baseline: Any) -> Any:

@@ -14,9 +14,41 @@ def files():
                          f" (cmake -S src/core), or ROS is not there: {error}") from error
 
 
+def flattened(settings, group=""):
+    """What a dict names, as an option file has it: names of groups with / before those in them; None is left out."""
+    flat = {}
+    for key, value in settings.items():
+        name = f"{group}{key}"
+        if value is None:
+            continue
+        inner = flattened(value, name + "/") if isinstance(value, dict) else {name: _plain(name, value)}
+        for each, its in inner.items():
+            if each in flat:
+                raise ValueError(f"{each} is given twice, must be given once")
+            flat[each] = its
+    return flat
+
+
+def _plain(name, value):
+    """A value that an option may have: of a number of NumPy the number, of a list of texts one text with commas."""
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, int) and abs(value) >= 2**31:
+        return float(value)
+    if isinstance(value, (bool, int, float, str)):
+        return value
+    if hasattr(value, "__fspath__"):
+        return os.fspath(value)
+    if not isinstance(value, (list, tuple)):
+        raise ValueError(f"{name} = {value!r}, must be true or false, a number or a text")
+    if not value:
+        raise ValueError(f"{name} = [], must be a value or left out")
+    return ", ".join(value) if all(isinstance(each, str) for each in value) else _core.UnusableList(repr(value))
+
+
 def array_keywords(options, config, arguments):
     """The options of a monitor of arrays, over those of a file, which may have those of messages, too."""
-    keywords = _core.monitor_keywords(options, arguments)
+    keywords = _core.monitor_keywords(flattened(options), arguments)
     if config is None:
         return keywords
     settings = files().read_settings(os.fspath(config))
@@ -26,7 +58,7 @@ def array_keywords(options, config, arguments):
 def simulator_keywords(options, of_vehicle):
     config = options.pop("config", None)
     arguments = ["output", "effect", "effects_file", "progress", "config"]
-    keywords = _core.simulator_keywords(options, of_vehicle, arguments)
+    keywords = _core.simulator_keywords(flattened(options), of_vehicle, arguments)
     if config is None:
         return keywords
     return keywords.with_defaults(_core.simulator_keywords(files().read_settings(os.fspath(config)), of_vehicle, []))

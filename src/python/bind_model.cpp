@@ -1,17 +1,22 @@
 #include "bindings.h"
-#include "options.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
+
+namespace suspension_health_monitor {
+
+struct EffectDescription {
+  std::string name, law, kind, finding;
+  std::vector<std::pair<std::string, std::string>> coefficients, shapes;  ///< name and unit
+};
+
+}  // namespace suspension_health_monitor
+
+BOOST_HANA_ADAPT_STRUCT(shm::EffectDescription, name, law, kind, coefficients, shapes, finding);
 
 namespace suspension_health_monitor {
 
 namespace py = pybind11;
 
 namespace {
-
-struct EffectDescription {
-  std::string name, law, kind, finding;
-  std::vector<std::pair<std::string, std::string>> coefficients, shapes;  ///< name and unit
-};
 
 std::vector<EffectDescription> describeEffects(const EffectLibrary& library) {
   std::vector<EffectDescription> all;
@@ -58,40 +63,33 @@ py::dict settingsOf(const StrutModel& model) {
 }  // namespace
 
 void bindModel(py::module& module) {
-  ResultClass<ModelNumber>(module, "ModelNumber", "One number of a model, in SI.")
-      .add("name", "damping_to_mass, bump_stop (its coefficient), bump_stop/g (a shape)", &ModelNumber::name)
-      .add("effect", "whose it is; empty for those of the linear strut", &ModelNumber::effect)
-      .add("symbol", "", &ModelNumber::symbol)
-      .add("unit", "", &ModelNumber::unit)
-      .add("value", "", &ModelNumber::value);
+  ResultClass<ModelNumber>(module, "ModelNumber", "One number of a model, in SI.");
   ResultClass<StrutModel>(module, "StrutModel", "The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j.")
-      .add("damping_to_mass", "b1 [1/s]", &StrutModel::damping_to_mass)
-      .add("stiffness_to_mass", "b0 [1/s^2]", &StrutModel::stiffness_to_mass)
-      .add("numbers", "All numbers: b1, b0, then effect by effect.", &numbersOf)
-      .add("effects", "Names of the effects in it.",
+      .add("numbers", &numbersOf)
+      .add("effects",
            [](const StrutModel& model) {
              std::vector<std::string> names;
              for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
              for (const ActiveMeasurementEffect& active : model.reading) names.push_back(active.effect.name);
              return names;
            })
-      .add("settings", "As a dict, which model= takes as well.", &settingsOf)
+      .add("settings", &settingsOf)
       .def("yaml", py::overload_cast<const StrutModel&>(&toYaml),
            "The text of a model file: for model_file, `--model` and model=.");
-  module.def("to_model", &toModel, py::arg("model"), py::arg("library"),
-             "A StrutModel of one, of a dict of settings, or None.");
+  module.def(
+      "to_model",
+      [](OptionMap settings, const EffectLibrary& library) {
+        StrutModel model = takeModel(settings, library);
+        refuseUnknown(settings, {});
+        return model;
+      },
+      py::arg("settings"), py::arg("library"), "The StrutModel that settings are, by their full names.");
 
   ResultClass<EffectLibrary>(module, "EffectLibrary", "What may be missing from a model: names, laws and findings.")
-      .add("effects", "", &describeEffects)
+      .add("effects", &describeEffects)
       .def(py::init(&builtInEffects), "The catalogue.");
   ResultClass<EffectDescription>(module, "Effect",
-                                 "A physical effect that the linear strut lacks, or a fault of a reading.")
-      .add("name", "", &EffectDescription::name)
-      .add("law", "the formula, coefficient c included", &EffectDescription::law)
-      .add("kind", "force, or reading: a fault of the body's IMU", &EffectDescription::kind)
-      .add("coefficients", "(name, unit) of each", &EffectDescription::coefficients)
-      .add("shapes", "(name, unit) of each number inside the law", &EffectDescription::shapes)
-      .add("finding", "what a workshop would find", &EffectDescription::finding);
+                                 "A physical effect that the linear strut lacks, or a fault of a reading.");
 }
 
 }  // namespace suspension_health_monitor

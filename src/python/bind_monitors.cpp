@@ -4,8 +4,7 @@
 #include "callback_lock.h"
 #include "options.h"
 #include "readings.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/strut_monitor.h"
 
 namespace suspension_health_monitor {
@@ -65,12 +64,7 @@ class ArrayVehicle {
   ArrayVehicle(const std::vector<std::pair<std::string, std::optional<Position>>>& struts,
                const MonitorOptions& options)
       : streams_(layoutOf(struts)),
-        grid_(
-            *options.sample_period, streams_, MonitorSettings(options).grid(*options.sample_period),
-            [this](const VehicleSample& sample) { monitor_.addGridSample(sample); },
-            [this](const VehicleReading& reading) { monitor_.addReading(grid_.vehicle(), reading); }),
-        monitor_(std::vector<MonitorSettings>(struts.size(), MonitorSettings(options)),
-                 [](std::size_t, const MonitorReport&) {}) {}
+        pipeline_(std::vector<MonitorSettings>(struts.size(), MonitorSettings(options)), streams_, {}) {}
 
   /// @param body  (n, 6) of the body's IMU, or (n, struts).  @param wheel  (n, struts).
   void push(const py::array_t<std::int64_t>& stamps, const py::array_t<double>& body, const py::array_t<double>& wheel,
@@ -86,26 +80,25 @@ class ArrayVehicle {
           while (of_body < 6) values_.push_back(top(k, of_body++));
         else
           values_.push_back(place == VehicleStreams::Place::kSprung ? top(k, of_body++) : carrier(k, of_wheel++));
-        grid_.push(i, stamp, values_);
+        pipeline_.push(i, stamp, values_.data());
       }
       interruption.step();
     }
   }
 
-  bool isCoupled() const { return monitor_.isCoupled(); }
+  bool isCoupled() const { return pipeline_.monitor()->isCoupled(); }
 
   std::vector<MonitorReport> reports() const {
-    std::vector<MonitorReport> reports(monitor_.numStruts());
+    std::vector<MonitorReport> reports(streams_.channels.struts.size());
     for (std::size_t i = 0; i < reports.size(); ++i)
-      if (monitor_.strut(i) != nullptr) reports[i] = monitor_.strut(i)->report();
+      if (const SuspensionMonitor* strut = pipeline_.strut(i)) reports[i] = strut->report();
     return reports;
   }
 
  private:
   VehicleStreams streams_;
   std::vector<double> values_;
-  VehicleGrid grid_;
-  VehicleMonitor monitor_;
+  VehiclePipeline pipeline_;
 };
 
 /// For threads of Python.

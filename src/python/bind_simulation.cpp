@@ -64,11 +64,9 @@ void addSensor(ResultClass<Simulation>& simulation, const char* name, const char
                SimulatedReadings Simulation::*sensor) {
   simulation
       .addArray(
-          name, "what it reads up along the strut, gravity included [m/s^2]",
-          [sensor](const Simulation& self) -> const auto& { return (self.*sensor).values; })
+          name, [sensor](const Simulation& self) -> const auto& { return (self.*sensor).values; })
       .addArray(
-          stamps,
-          "[s], one per reading", [sensor](const Simulation& self) -> const auto& { return (self.*sensor).stamps; });
+          stamps, [sensor](const Simulation& self) -> const auto& { return (self.*sensor).stamps; });
 }
 
 py::array_t<double> acrossOf(const Simulation& simulation) {
@@ -85,18 +83,17 @@ void bindSimulation(py::module& module) {
   addSensor(simulation, "body", "stamps_body", &Simulation::body);
   addSensor(simulation, "wheel", "stamps_wheel", &Simulation::wheel);
   addSensor(simulation, "road", "stamps_road", &Simulation::road);
-  simulation
-      .add("across", "a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, (readings, 4); NaN: it has none", &acrossOf)
-      .addArray("time", "of the truth [s]", &Simulation::time)
-      .addColumn("damping_to_mass", "b1 [1/s]", &Simulation::truth, &DriveTruth::damping_to_mass)
-      .addColumn("stiffness_to_mass", "b0 [1/s^2]", &Simulation::truth, &DriveTruth::stiffness_to_mass)
-      .addColumn("travel", "compression positive [m]", &Simulation::truth, &DriveTruth::travel)
-      .addColumn("travel_rate", "[m/s]", &Simulation::truth, &DriveTruth::travel_rate)
-      .addColumn("road_height", "[m]", &Simulation::truth, &DriveTruth::road_height);
+  simulation.add("across", &acrossOf)
+      .addArray("time", &Simulation::time)
+      .addColumn("damping_to_mass", &Simulation::truth, &DriveTruth::damping_to_mass)
+      .addColumn("stiffness_to_mass", &Simulation::truth, &DriveTruth::stiffness_to_mass)
+      .addColumn("travel", &Simulation::truth, &DriveTruth::travel)
+      .addColumn("travel_rate", &Simulation::truth, &DriveTruth::travel_rate)
+      .addColumn("road_height", &Simulation::truth, &DriveTruth::road_height);
   module.def(
       "simulator_keywords",
-      [](const py::dict& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
-        if (of_vehicle) return Keywords{toSettings(keywords)};  // who makes the vehicle knows its options
+      [](const OptionMap& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
+        if (of_vehicle) return Keywords{keywords};  // who makes the vehicle knows its options
         return takeKeywords(keywords, SimulatorOptions::describe(), arguments);
       },
       py::arg("keywords"), py::arg("of_vehicle"), py::arg("arguments"));

@@ -4,9 +4,13 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <boost/hana.hpp>
 #include <functional>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
+#include "../tools/result_fields.h"  // of its folder a file without ROS
 #include "opaque.h"
 #include "suspension_health_monitor/drive.h"
 
@@ -15,7 +19,6 @@ namespace suspension_health_monitor {
 // Each adds its classes and functions to the compiled part of the Python module.
 void bindModel(pybind11::module& module);
 void bindReports(pybind11::module& module);
-void bindViews(pybind11::module& module);
 void bindResults(pybind11::module& module);
 void bindWork(pybind11::module& module);
 void bindSimulation(pybind11::module& module);
@@ -44,29 +47,45 @@ auto arrayOf(const Items& items, const What& what) {
   return array;
 }
 
-/// A class of results in Python. Its attributes cannot be changed; `what` they are is said as valueOf() takes it.
+/// A class of results in Python, with the fields of result_fields.h. Its attributes cannot be changed; `what` else they
+/// are is said as valueOf() takes it. Their texts are in _core.pyi.
 template <class Result>
 class ResultClass : public pybind11::class_<Result> {
  public:
-  using pybind11::class_<Result>::class_;
+  ResultClass(pybind11::module& module, const char* name, const char* text)
+      : pybind11::class_<Result>(module, name, text) {
+    if constexpr (boost::hana::Struct<Result>::value)
+      boost::hana::for_each(boost::hana::accessors<Result>(), [this](const auto& field) {
+        addField(boost::hana::to<const char*>(boost::hana::first(field)), boost::hana::second(field));
+      });
+  }
 
   template <class What>
-  ResultClass& add(const char* name, const char* text, const What& what) {
-    const auto get = [what](const Result& self) -> decltype(auto) { return valueOf(what, self); };
-    this->def_property_readonly(name, get, text);
+  ResultClass& add(const char* name, const What& what) {
+    this->def_property_readonly(name, [what](const Result& self) -> decltype(auto) { return valueOf(what, self); });
     return *this;
   }
 
   /// Adds an array: of each item in a vector one number.
   template <class Items, class What>
-  ResultClass& addColumn(const char* name, const char* text, const Items& items, const What& what) {
-    return add(name, text, [=](const Result& self) { return arrayOf(valueOf(items, self), what); });
+  ResultClass& addColumn(const char* name, const Items& items, const What& what) {
+    return add(name, [=](const Result& self) { return arrayOf(valueOf(items, self), what); });
   }
 
   /// Adds an array, of a vector of numbers.
   template <class Numbers>
-  ResultClass& addArray(const char* name, const char* text, const Numbers& numbers) {
-    return addColumn(name, text, numbers, [](const auto& number) { return number; });
+  ResultClass& addArray(const char* name, const Numbers& numbers) {
+    return addColumn(name, numbers, [](const auto& number) { return number; });
+  }
+
+ private:
+  // Numbers of many samples are an array; standard deviations of a few numbers are a list.
+  template <class Field>
+  void addField(const char* name, const Field& field) {
+    if constexpr (std::is_same_v<std::decay_t<std::invoke_result_t<Field, const Result&>>, std::vector<double>>)
+      std::string_view(name) == "stddev" ? add(name, field) : addArray(name, field);
+    else
+      add(name, field);
   }
 };
 

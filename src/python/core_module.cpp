@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, module) {
   py::class_<Recording>(module, "Readings", "Arrays of one drive, checked and ready to be read.")
       .def(py::init<std::vector<ReadingStream>, std::optional<py::array_t<double>>>(), py::arg("streams"),
            py::arg("across"));
+  py::class_<UnusableList>(module, "UnusableList", "A value that no option takes.").def(py::init<std::string>());
   py::class_<Keywords>(module, "Keywords", "Options by their full names.")
       .def("with_defaults",
            [](Keywords self, const Keywords& defaults) {
@@ -20,14 +21,13 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("assignments", &Keywords::assignments, "NAME=VALUE each, for `--set`");
   module.def(
       "monitor_keywords",
-      [](const py::dict& keywords, const std::vector<std::string>& arguments) {
+      [](const OptionMap& keywords, const std::vector<std::string>& arguments) {
         return takeKeywords(keywords, PipelineOptions::describe(), arguments);
       },
       py::arg("keywords"), py::arg("arguments"),
       "The keywords of a call by the options' full names; refuses an unknown one, naming the nearest.");
   bindModel(module);
   bindReports(module);
-  bindViews(module);
   bindResults(module);
   bindWork(module);
   bindSimulation(module);

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "../ros/shell_options.h"  // of its folder the file without ROS
-#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 
@@ -27,19 +23,11 @@ struct Keywords {
   PipelineOptions forArrays() const;
 };
 
-/// @param keywords  of a call: an option's name, with _ for / where a Python name is wanted: health_damping_warn. None:
-/// left out. A list of texts is one text with commas.
+/// @param keywords  of a call: an option's name, with _ for / where a Python name is wanted: health_damping_warn.
 /// @param known  all options that the call understands.
 /// @param arguments  its other keywords, for the proposal of a name that is near an unknown one.
-/// @throws std::invalid_argument  naming an unknown name, or a value that no option can have.
-Keywords takeKeywords(const pybind11::dict& keywords, const std::vector<OptionDescription>& known,
+/// @throws std::invalid_argument  naming an unknown name.
+Keywords takeKeywords(const OptionMap& keywords, const std::vector<OptionDescription>& known,
                       const std::vector<std::string>& arguments);
-
-/// @param group  in front of all names.
-/// @return the settings that a dict names, as an option file has them; groups may be dicts in it.
-OptionMap toSettings(const pybind11::dict& settings, const std::string& group = "");
-
-/// @param model  a StrutModel, a dict of settings as in a model file, or None.
-std::optional<StrutModel> toModel(const pybind11::object& model, const EffectLibrary& library);
 
 }  // namespace suspension_health_monitor

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "live_search.h"
 #include "monitor_thread.h"
-#include "strut_search.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -48,12 +48,19 @@ std::array<ImuMount, kMostStreams> ImuMount::of(const ShellOptions& options, con
           ImuMount(options.road_axis, options.target_frame, std::nullopt, transforms)};
 }
 
-std::variant<double, RejectReason> ImuMount::acceleration(const sensor_msgs::Imu& imu) {
+std::optional<RejectReason> ImuMount::read(const sensor_msgs::Imu& imu, bool six_axes, std::vector<double>& values) {
   if (imu.linear_acceleration_covariance[0] == -1.0) return RejectReason::kNotMeasured;
   if (!target_frame_.empty() && imu.header.frame_id != frame_ && !findTransform(imu.header.frame_id))
     return RejectReason::kNoTransform;
   if (isClipped(imu.linear_acceleration)) return RejectReason::kClipped;
-  return along(directions_[2], imu.linear_acceleration);
+  if (!six_axes) {
+    values.push_back(along(directions_[2], imu.linear_acceleration));
+    return std::nullopt;
+  }
+  if (imu.angular_velocity_covariance[0] == -1.0) return RejectReason::kNotMeasured;
+  for (const geometry_msgs::Vector3& v : {imu.linear_acceleration, imu.angular_velocity})
+    for (const double component : turned(v)) values.push_back(component);
+  return std::nullopt;
 }
 
 bool ImuMount::findTransform(const std::string& frame) {
@@ -82,14 +89,6 @@ bool ImuMount::isClipped(const geometry_msgs::Vector3& acceleration) const {
 
 std::array<double, 3> ImuMount::turned(const geometry_msgs::Vector3& v) const {
   return {along(directions_[0], v), along(directions_[1], v), along(directions_[2], v)};
-}
-
-std::variant<std::array<double, 6>, RejectReason> ImuMount::sixAxes(const sensor_msgs::Imu& imu) {
-  const auto up = acceleration(imu);
-  if (const RejectReason* reason = std::get_if<RejectReason>(&up)) return *reason;
-  if (imu.angular_velocity_covariance[0] == -1.0) return RejectReason::kNotMeasured;
-  const std::array<double, 3> a = turned(imu.linear_acceleration), rate = turned(imu.angular_velocity);
-  return std::array<double, 6>{a[0], a[1], a[2], rate[0], rate[1], rate[2]};
 }
 
 BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {

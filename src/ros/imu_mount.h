@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <variant>
+#include <vector>
 
 #include "shell_options.h"
 #include "suspension_health_monitor/drive.h"
@@ -35,17 +35,16 @@ class ImuMount {
   /// The mounts of sprung and unsprung IMU.
   static std::array<ImuMount, kMostStreams> of(const ShellOptions& options, const tf2::BufferCore* transforms);
 
-  /// @return acceleration along the strut, gravity included as measured [m/s^2]; or why there is none: kNotMeasured
-  /// (the message says so: covariance -1, sensor_msgs/Imu), kNoTransform, kClipped.
-  std::variant<double, RejectReason> acceleration(const sensor_msgs::Imu& imu);
+  /// Appends the acceleration along the strut, gravity included as measured [m/s^2]; of an IMU with six axes what it
+  /// measures along the strut's, x and y across it, z up: three accelerations [m/s^2], then three angular rates
+  /// [rad/s].
+  /// @return why there is nothing to append: kNotMeasured (the message says so: covariance -1, sensor_msgs/Imu),
+  /// kNoTransform, kClipped.
+  std::optional<RejectReason> read(const sensor_msgs::Imu& imu, bool six_axes, std::vector<double>& values);
 
   /// @return what the IMU measures across the strut; NaN what it says it does not measure.
-  /// @pre acceleration() has found the transform.
+  /// @pre read() has found the transform.
   BodyMotion across(const sensor_msgs::Imu& imu) const;
-
-  /// @return what a six-axis IMU measures along the strut's axes, x and y across it, z up: three accelerations [m/s^2],
-  /// then three angular rates [rad/s]; or why there is none, as acceleration(), kNotMeasured for a gyro that says so.
-  std::variant<std::array<double, 6>, RejectReason> sixAxes(const sensor_msgs::Imu& imu);
 
   /// @param v  in the IMU's frame.
   /// @return its components along the strut's axes.

@@ -1,63 +1,257 @@
 #include "input_task.h"
 
-#include <algorithm>
-#include <utility>
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/message_traits.h>
+#include <sensor_msgs/Imu.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "conversions.h"
 #include "strut_diagnostics.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+using ros::message_traits::DataType;
+using Place = VehicleStreams::Place;
+
+constexpr double kShownLag = 0.0005;    // [s] half of the last digit that is shown
+constexpr double kTopicsEvery = 0.5;    // [s]
+constexpr std::size_t kMostOthers = 6;  // topics that a person reads through
+constexpr double kRateTolerance = 0.1;  // share of the expected rate: drivers keep theirs to a few percent
+
+void warn(const std::string& of, Arrivals::Status& status) {
+  if (!of.empty()) status.mergeSummary(DiagnosticStatus::WARN, of);
+}
+
+/// The rate of one IMU as its stamps tell it.
+/// @param expected_rate  [Hz]; another one is warned of.
+void describeTiming(const StreamClock& clock, const std::string& name, const std::optional<double>& expected_rate,
+                    Arrivals::Status& status) {
+  const double rate = clock.period() > 0.0 ? 1.0 / clock.period() : 0.0;
+  status.addf(name + " rate [Hz]", "%.4g", rate);
+  status.addf(name + " jitter [s]", "%.3g", clock.jitter());
+  status.add(name + " lost", clock.lost());
+  if (expected_rate && rate > 0.0 && std::abs(rate / *expected_rate - 1.0) > kRateTolerance)
+    warn(formatted("%s IMU comes at %.4g Hz, expected %.4g", name.c_str(), rate, *expected_rate), status);
+}
+
+/// Adds the counts of readings that were kept out, as "OF rejected REASON", and warns of those that came since
+/// `before`.
+void describeRejected(const RejectCounts& rejected, const std::string& of, RejectCounts& before,
+                      Arrivals::Status& status) {
+  std::vector<std::string> newly;
+  for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i) {
+    const auto reason = static_cast<RejectReason>(i);
+    const std::string name(kRejectReasonNames[i]);
+    if (rejected.count(reason) > before.count(reason)) newly.push_back(name);
+    status.add((of.empty() ? "" : of + ' ') + "rejected " + name, rejected.count(reason));
+  }
+  before = rejected;
+  if (!newly.empty()) warn("readings " + (of.empty() ? "" : "of " + of + ' ') + "rejected: " + join(newly), status);
+}
 
 }  // namespace
 
-InputTask::InputTask(const ShellOptions& options, const std::vector<std::string>& topics, std::vector<Sensor> sensors)
-    : sensors_(std::move(sensors)), max_lag_(options.max_lag), silent_(topics, fromSeconds(options.input_timeout)) {
-  for (std::size_t i = 0; i < sensors_.size(); ++i) all_sensors_.push_back(i);
+const ros::master::V_TopicInfo& PublishedTopics::now() {
+  const ros::WallTime time = ros::WallTime::now();
+  if ((time - asked_).toSec() < kTopicsEvery) return topics_;
+  asked_ = time;
+  topics_.clear();
+  ros::master::getTopics(topics_);
+  return topics_;
+}
+
+void Arrivals::note(const ros::Time& stamp) {
+  if (!last_) last_.emplace();
+  last_->by_clock = ros::Time::now();
+  last_->by_wall = ros::WallTime::now();
+  last_->lag.add(last_->by_clock.toSec() - stamp.toSec());
+}
+
+void Arrivals::describeLag(const std::string& name, const std::optional<double>& max_lag, Status& status) const {
+  if (!last_) return;
+  const double lag = last_->lag.mean();
+  status.addf(name + " lag [s]", "%.3f", std::max(lag, 0.0));
+  // Stamps ahead of the clock are normal in a simulation, by as much as its clock ticks more coarsely than its sensors
+  // read. On a robot they mean that the clocks are not synchronised.
+  if (lag <= -kShownLag) status.addf(name + " ahead of the clock [s]", "%.3f", -lag);
+  if (max_lag && lag > *max_lag) warn(formatted("%s IMU is %.3g s late", name.c_str(), lag), status);
+}
+
+bool Arrivals::isSilentByWall() const { return last_ && (ros::WallTime::now() - last_->by_wall).toSec() > timeout_; }
+
+// A sensor counts as silent when it is so by the clock that stamps the data and by the wall clock. The first alone
+// stands still while a simulation is paused; the second alone would call a replay silent that is slower than life.
+void Arrivals::describeSilence(PublishedTopics& published, Status& status) const {
+  if (!last_) {
+    status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topic_ + whatElseThereIs(published));
+    return;
+  }
+  const double by_wall = (ros::WallTime::now() - last_->by_wall).toSec();
+  const double by_clock = ros::Time::now().toSec() - last_->by_clock.toSec();
+  const bool clock_went_back = by_clock < 0.0;
+  if (by_wall > timeout_ && (by_clock > timeout_ || clock_went_back))
+    status.mergeSummaryf(DiagnosticStatus::ERROR, "no message on %s for %.1f s", topic_.c_str(),
+                         clock_went_back ? by_wall : by_clock);
+}
+
+// Somebody has mistyped a name, or forgotten to remap it.
+std::string Arrivals::whatElseThereIs(PublishedTopics& published) const {
+  if ((ros::WallTime::now() - begun_).toSec() < timeout_) return "";
+  std::vector<std::string> others;
+  for (const ros::master::TopicInfo& topic : published.now())
+    if (topic.datatype == type_ && topic.name != topic_) others.push_back(topic.name);
+  if (others.empty()) return "";
+  std::sort(others.begin(), others.end());
+  if (others.size() > kMostOthers) {
+    others.resize(kMostOthers);
+    others.emplace_back("...");
+  }
+  return " (" + type_ + " is on " + join(others, ", ") + ")";
+}
+
+InputTask::InputTask(const VehicleOptions& options, const VehicleStreams& streams,
+                     const std::vector<std::string>& topics)
+    : is_alone_(options.isOneStrut()),
+      target_frame_(options.common.shell.target_frame),
+      max_lag_(options.common.shell.max_lag),
+      silent_(topics, fromSeconds(options.common.shell.input_timeout)) {
+  const ShellOptions& shell = options.common.shell;
+  for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
+    const Place place = streams.sensors[i].place;
+    const bool is_force = place == Place::kForce, is_wheel = place == Place::kUnsprung;
+    std::optional<double> rate = is_wheel ? shell.unsprung_rate : shell.sprung_rate;
+    if (is_force) rate.reset();
+    sensors_.push_back(
+        {is_alone_ ? (is_wheel ? "unsprung" : "sprung") : topics[i], rate,
+         Arrivals(topics[i], shell.input_timeout,
+                  is_force ? DataType<geometry_msgs::WrenchStamped>::value() : DataType<sensor_msgs::Imu>::value())});
+    all_sensors_.push_back(i);
+  }
+  for (std::size_t i = 0; i < streams.channels.struts.size(); ++i) {
+    own_sensors_.push_back({streams.wheelImuOf(i)});
+    if (streams.channels.struts[i].sprung) own_sensors_.back().push_back(streams.bodyImuOf(i));
+  }
+  restart();
+}
+
+void InputTask::noteMessage(std::size_t sensor, const ros::Time& stamp) {
+  sensors_[sensor].arrivals.note(stamp);
+  silent_.add(sensor, toStamp(stamp));
 }
 
 void InputTask::restart() {
-  series_ = {};
+  gaps_before_ = 0;
   refusal_.clear();
+  told_of_vehicle_ = told_of_strut_ = Rejected(sensors_.size());
 }
 
-void InputTask::summarize(const Sensors& sensors, bool has_monitor, const char* well, Status& status) const {
+void InputTask::describe(const MessagePipeline* pipeline, const std::string& missing, Status& status) {
+  summarize(all_sensors_, pipeline, missing, status);
+  if (pipeline != nullptr) {
+    describeSeries(*pipeline, status);
+    describeSensors(all_sensors_, *pipeline, told_of_vehicle_, status);
+    describeMounts(*pipeline, status);
+  }
+  describeSilence(all_sensors_, status);
+  describeClock(status);
+}
+
+void InputTask::describeStrut(std::size_t strut, const MessagePipeline* pipeline, const std::string& missing,
+                              Status& status) {
+  summarize(own_sensors_[strut], pipeline, missing, status);
+  if (pipeline != nullptr) describeSensors(own_sensors_[strut], *pipeline, told_of_strut_, status);
+  describeSilence(own_sensors_[strut], status);
+}
+
+void InputTask::summarize(const Sensors& sensors, const MessagePipeline* pipeline, const std::string& missing,
+                          Status& status) const {
+  if (pipeline == nullptr) return status.summary(DiagnosticStatus::ERROR, missing);
   const auto isSilent = [this](std::size_t sensor) { return sensors_[sensor].arrivals.isSilentByWall(); };
-  if (!has_monitor)
+  const bool stands_still = ros::Time::isSimTime() && clock_ == ros::Time::now();
+  const SuspensionMonitor* monitor = pipeline->strut();
+  const bool any_usable = monitor != nullptr && monitor->input().samples > 0;
+  if (is_alone_ && !any_usable && pipeline->rejected().total() > 0)
+    status.summary(DiagnosticStatus::WARN, "no usable pair of readings yet");
+  else if (pipeline->monitor() == nullptr)
     status.summary(DiagnosticStatus::OK, kMeasuringPeriod);
-  else if (clock_.standsStill() && std::all_of(sensors.begin(), sensors.end(), isSilent))
+  else if (stands_still && std::all_of(sensors.begin(), sensors.end(), isSilent))
     status.summary(DiagnosticStatus::OK, "nothing arrives at present");
   else
-    status.summary(DiagnosticStatus::OK, well);
+    status.summary(DiagnosticStatus::OK, is_alone_ ? "both IMUs arrive as expected" : "all sensors arrive as expected");
 }
 
-void InputTask::describeGrid(const SuspensionMonitor* monitor, const StreamGrid* grid, Status& status) {
-  if (monitor != nullptr) series_.describe(*monitor, status);
-  if (grid == nullptr) return;
-  const std::string slow = grid->resamples() ? "" : grid->whatIsTooSlow();
-  if (!slow.empty()) status.mergeSummary(DiagnosticStatus::WARN, slow);
-  status.add("alignment", grid->describeAlignment());
-  status.add("bridged", grid->bridged());
+void InputTask::describeSeries(const MessagePipeline& pipeline, Status& status) {
+  if (const SuspensionMonitor* monitor = pipeline.strut()) {
+    const InputStatus& input = monitor->input();
+    if (input.gaps + input.restarts > gaps_before_) warn("gap in the input", status);
+    gaps_before_ = input.gaps + input.restarts;
+    if (!input.period_fits) warn("stamps do not fit sample_period", status);
+    warn(describeShaking(input), status);
+    status.addf("rate [Hz]", "%.4g", input.mean_period > 0.0 ? 1.0 / input.mean_period : 0.0);
+    status.addf("sample_period [s]", "%.9g", monitor->period());
+    status.addf("horizon_samples", "%d", monitor->horizonSamples());
+    status.add("samples", input.samples);
+    status.add("regression rows", input.rows);
+    status.add("gaps", input.gaps);
+    status.add("clock jumps", input.restarts);
+  }
+  if (const VehicleGrid* grid = pipeline.grid()) {
+    if (!grid->streams().resamples()) warn(grid->streams().whatIsTooSlow(), status);
+    status.add("alignment", grid->streams().describeAlignment());
+    status.add("bridged", grid->streams().bridged());
+    if (const std::string leans = suspension_health_monitor::describe(grid->bodyLevel()); !leans.empty())
+      status.add("body IMU", leans);
+  }
 }
 
-void InputTask::describeSensor(std::size_t sensor, const StreamGate* gate, Status& status) const {
-  const Sensor& its = sensors_[sensor];
-  its.arrivals.describeLag(its.name, max_lag_, status);
-  if (gate != nullptr) describeTiming(gate->clock(), its.name, its.expected_rate, status);
+void InputTask::describeSensors(const Sensors& sensors, const MessagePipeline& pipeline, Rejected& before,
+                                Status& status) {
+  for (const std::size_t sensor : sensors) {
+    const Sensor& its = sensors_[sensor];
+    its.arrivals.describeLag(its.name, max_lag_, status);
+    if (const VehicleGrid* grid = pipeline.grid()) {
+      describeTiming(grid->gate(sensor).clock(), its.name, its.expected_rate, status);
+      if (is_alone_)
+        status.add(its.name + " rejected", grid->gate(sensor).rejected().total());
+      else
+        status.add(its.name + " waited for in vain", grid->missed(sensor));
+    }
+    if (!is_alone_) describeRejected(pipeline.rejected(sensor), its.name, before[sensor], status);
+  }
+  if (!is_alone_) return;
+  describeRejected(pipeline.rejected(), "", before.front(), status);
+  for (const std::size_t sensor : sensors)
+    if (const std::string& frame = pipeline.missingTransform(sensor); !frame.empty())
+      status.mergeSummary(DiagnosticStatus::ERROR,
+                          "no static transform from " + frame + " to target_frame " + target_frame_ + " (/tf_static)");
 }
 
 void InputTask::describeMounts(const MessagePipeline& pipeline, Status& status) const {
   std::vector<std::string> names;
   for (const Sensor& sensor : sensors_) names.push_back("the " + sensor.name + " IMU");
-  for (const std::string& fault : pipeline.mountFaults(names))
-    if (!fault.empty()) status.mergeSummary(DiagnosticStatus::WARN, fault);
+  for (const std::string& fault : pipeline.mountFaults(names)) warn(fault, status);
 }
 
 void InputTask::describeSilence(const Sensors& sensors, Status& status) {
   if (!refusal_.empty())
     return status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
   for (const std::size_t sensor : sensors) sensors_[sensor].arrivals.describeSilence(published_, status);
+}
+
+void InputTask::describeClock(Status& status) {
+  if (!ros::Time::isSimTime()) return;
+  const ros::Time now = ros::Time::now();
+  if (now.isZero())
+    status.mergeSummary(DiagnosticStatus::ERROR, "use_sim_time is set, but nothing comes on /clock");
+  else if (clock_ == now)
+    status.summary(static_cast<unsigned char>(status.level), status.message + "; the clock stands still");
+  clock_ = now;
 }
 
 }  // namespace suspension_health_monitor

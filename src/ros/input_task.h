@@ -4,74 +4,122 @@
 #include <ros/ros.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "conversions.h"
-#include "input_history.h"
 #include "message_pipeline.h"
-#include "shell_options.h"
-#include "suspension_health_monitor/internal/signal/stream_grid.h"
+#include "suspension_health_monitor/internal/identification/running_mean.h"
 #include "suspension_health_monitor/internal/signal/stream_silence.h"
+#include "vehicle_options.h"
 
 namespace suspension_health_monitor {
 
-/// The task Input of /diagnostics, as far as it is the same of one strut and of a vehicle: which sensor is silent or
-/// late, and how its readings come onto the grid. Counters run from the start or the last reset; a warning is about
-/// what came since the last report.
+/// The topics that anybody publishes, as the master told at most half a second ago: all silent sensors of a report,
+/// which is due once a second, ask it once.
+class PublishedTopics {
+ public:
+  /// @return empty if the master does not answer.
+  const ros::master::V_TopicInfo& now();
+
+ private:
+  ros::WallTime asked_;
+  ros::master::V_TopicInfo topics_;
+};
+
+/// When the messages of one sensor came.
+class Arrivals {
+ public:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  /// @param timeout  [s] silence, by the clock and by the wall clock, that is an error.
+  /// @param type  of its messages, as sensor_msgs/Imu: what else has such is named while nothing comes.
+  Arrivals(const std::string& topic, double timeout, const std::string& type)
+      : topic_(topic), timeout_(timeout), type_(type), begun_(ros::WallTime::now()) {}
+
+  void note(const ros::Time& stamp);
+
+  /// @param name  of the sensor.  @param max_lag  [s] mean time of arrival - stamp that is warned of.
+  void describeLag(const std::string& name, const std::optional<double>& max_lag, Status& status) const;
+
+  /// @return true if messages have come and no longer do.
+  bool isSilentByWall() const;
+
+  void describeSilence(PublishedTopics& published, Status& status) const;
+
+ private:
+  struct Last {
+    ros::Time by_clock;
+    ros::WallTime by_wall;
+    RunningMean lag{0.99};
+  };
+
+  std::string whatElseThereIs(PublishedTopics& published) const;
+
+  std::string topic_;
+  double timeout_;
+  std::string type_;
+  ros::WallTime begun_;
+  std::optional<Last> last_;
+};
+
+/// The task Input of /diagnostics, of a vehicle and of each of its struts: which sensor is silent or late, how its
+/// readings come onto the grid, and which were kept out. Sensors are named by their topics, those of a strut alone by
+/// their place. Counters run from the start or the last reset; a warning is about what came since the last report.
 class InputTask {
  public:
-  virtual ~InputTask() = default;
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  void noteMessage(std::size_t sensor, const ros::Time& stamp) {
-    sensors_[sensor].arrivals.note(stamp);
-    silent_.add(sensor, toStamp(stamp));
-  }
+  /// @param topics  by VehicleStreams::sensors.
+  InputTask(const VehicleOptions& options, const VehicleStreams& streams, const std::vector<std::string>& topics);
+
+  void noteMessage(std::size_t sensor, const ros::Time& stamp);
 
   /// @return the topics that are silent while others go on.
   std::vector<std::string> silentTopics() const { return silent_.now(); }
 
   /// To be called with a new pipeline: its counters start from 0, and nothing is refused yet.
-  virtual void restart();
+  void restart();
 
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
 
- protected:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-  using Sensors = std::vector<std::size_t>;
+  /// @param pipeline  nullptr: the positions of the struts are not known yet, and `missing` says why.
+  void describe(const MessagePipeline* pipeline, const std::string& missing, Status& status);
 
+  /// The same of a strut's own sensors alone, in a vehicle.
+  void describeStrut(std::size_t strut, const MessagePipeline* pipeline, const std::string& missing, Status& status);
+
+ private:
   struct Sensor {
     std::string name;                     // as the task calls it
     std::optional<double> expected_rate;  // [Hz]
-    ImuArrivals arrivals;
+    Arrivals arrivals;
   };
+  using Sensors = std::vector<std::size_t>;
+  using Rejected = std::vector<RejectCounts>;  // of the last report: by sensor, of a strut alone of both IMUs
 
-  /// @param topics  of the sensors.
-  InputTask(const ShellOptions& options, const std::vector<std::string>& topics, std::vector<Sensor> sensors);
-
-  /// @param well  what there is to say if all of the sensors arrive.
-  void summarize(const Sensors& sensors, bool has_monitor, const char* well, Status& status) const;
-
-  /// @param monitor, grid  nullptr: none yet.
-  void describeGrid(const SuspensionMonitor* monitor, const StreamGrid* grid, Status& status);
-
-  /// @param gate  nullptr: none yet.
-  void describeSensor(std::size_t sensor, const StreamGate* gate, Status& status) const;
-  void describeSilence(const Sensors& sensors, Status& status);
+  void summarize(const Sensors& sensors, const MessagePipeline* pipeline, const std::string& missing,
+                 Status& status) const;
+  void describeSeries(const MessagePipeline& pipeline, Status& status);
+  void describeSensors(const Sensors& sensors, const MessagePipeline& pipeline, Rejected& before, Status& status);
   void describeMounts(const MessagePipeline& pipeline, Status& status) const;
+  void describeSilence(const Sensors& sensors, Status& status);
+  void describeClock(Status& status);
 
+  bool is_alone_;
   std::vector<Sensor> sensors_;
   Sensors all_sensors_;
-  ClockHistory clock_;
-
- private:
+  std::vector<Sensors> own_sensors_;  // by strut
+  std::string target_frame_;
   std::optional<double> max_lag_;  // [s]
   StreamSilence silent_;
   PublishedTopics published_;
   std::string refusal_;
-  SeriesHistory series_;
+  std::uint64_t gaps_before_ = 0;
+  Rejected told_of_vehicle_, told_of_strut_;
+  std::optional<ros::Time> clock_;  // at the last report
 };
 
 }  // namespace suspension_health_monitor

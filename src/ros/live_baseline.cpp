@@ -148,6 +148,13 @@ Baseline takeBaseline(OptionMap& values) {
   return toBaseline(settings);
 }
 
+bool areSettings(const OptionMap& values) {
+  return std::any_of(values.begin(), values.end(), [](const auto& value) {
+    const std::size_t place = value.first.find("nominal/");
+    return place == 0 || (place != std::string::npos && value.first[place - 1] == '/');
+  });
+}
+
 void requireOneReference(const std::string& file, const MonitorOptions& options) {
   if (options.nominal_damping_to_mass || options.nominal_stiffness_to_mass)
     throw std::invalid_argument((file.empty() ? "a baseline" : "baseline_file = \"" + file + '"') +
@@ -159,9 +166,7 @@ LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell
   requireOneReference(path_, options.monitor);
   if (!std::filesystem::exists(path_)) return;
   OptionMap values = readYaml(path_);
-  const bool is_settings =
-      std::any_of(values.begin(), values.end(), [](const auto& each) { return each.first.rfind("nominal/", 0) == 0; });
-  if (is_settings)
+  if (areSettings(values))
     throw std::invalid_argument(path_ +
                                 ": these are settings with nominal values, to be given as --config or config:=");
   known_ = prefixed(path_ + ": ", [&] { return takeBaseline(values); });

@@ -50,6 +50,9 @@ std::string toYaml(const Baseline& baseline, double horizon, double sample_perio
 /// @throws std::invalid_argument  naming what is missing, unknown or wrong.
 Baseline takeBaseline(OptionMap& values);
 
+/// @return true for settings with nominal values, in any group: a baseline file has none.
+bool areSettings(const OptionMap& values);
+
 /// @param file  of the baseline; empty: it has none.
 /// @throws std::invalid_argument  if nominal values are given beside a baseline.
 void requireOneReference(const std::string& file, const MonitorOptions& options);

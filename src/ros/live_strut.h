@@ -2,53 +2,57 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <std_srvs/Trigger.h>
 #include <suspension_health_monitor/Diagnose.h>
+#include <suspension_health_monitor/SetEffects.h>
 
-#include <functional>
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "diagnose_service.h"
 #include "live_baseline.h"
 #include "live_model.h"
+#include "message_pipeline.h"
 #include "report_topics.h"
 #include "strut_diagnostics.h"
-#include "strut_services.h"
 
 namespace suspension_health_monitor {
 
-/// A live strut as others see it, alone or one of a vehicle: its topics, its services and its tasks of /diagnostics.
-class LiveStrut {
+/// The nodelet as its struts see it. Everything is called in its queue.
+class StrutHost {
  public:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  /// What it asks the nodelet for; what changes with its model it does itself.
-  struct Host : StrutServices::Strut {
-    std::string title;                      ///< of the strut, for the terminal
-    std::function<std::string()> why_none;  ///< why the strut has no monitor
-    StrutDiagnostics::FindSilent silent_topics;
-    std::function<const std::string&()> frame;    ///< frame_id of the body's IMU
-    std::function<void(Status&)> describe_input;  ///< of the strut's own sensors
-    ros::CallbackQueueInterface* queue;           ///< where all callbacks come from
-    DiagnoseService<Diagnose>::Prepare search;
-  };
+  virtual ~StrutHost() = default;
+  virtual MessagePipeline* pipeline() = 0;                            ///< nullptr: none yet
+  virtual std::string whyNoMonitor() = 0;                             ///< why the struts have no monitors
+  virtual std::vector<std::string> silentTopics() const = 0;          ///< as InputTask
+  virtual const std::string& frameOf(std::size_t strut) const = 0;    ///< frame_id of its body's IMU
+  virtual void describeInput(std::size_t strut, Status& status) = 0;  ///< of the strut's own sensors
+  virtual DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) = 0;
+  virtual std::string reset() = 0;                   ///< tells what it has done
+  virtual ros::CallbackQueueInterface& queue() = 0;  ///< where all callbacks come from
+};
 
-  /// @param name  in its vehicle, below which its topics and services are; empty: it is alone, and they are the node's.
-  /// @param model_of  as VehicleOptions has it.
+/// A live strut as others see it, alone or one of a vehicle: its topics, its tasks of /diagnostics, and its services,
+/// which change or keep what is known of it: set_effects, save_model, save_baseline, reset, diagnose.
+class LiveStrut {
+ public:
+  /// @param host  outlives this object.  @param place  among the struts.
+  /// @param title  of the strut, for the terminal.
   /// @throws std::invalid_argument  as LiveModel and LiveBaseline.
-  LiveStrut(const std::string& name, const PipelineOptions& options, const std::string& model_of, Host host);
+  LiveStrut(StrutHost& host, std::size_t place, const VehicleOptions& options, const std::string& title);
+  ~LiveStrut();
   LiveStrut(const LiveStrut&) = delete;
   LiveStrut& operator=(const LiveStrut&) = delete;
 
-  /// Advertises topics and services.
+  /// Advertises topics and services, below the strut's name; of a strut alone they are the node's.
   void start(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  /// Gives a new monitor the model and the baseline of this strut: by calls as those of StrutServices::Strut.
-  template <class SetEffects, class SetBaseline>
-  void begin(const SetEffects& set_effects, const SetBaseline& set_baseline) const {
-    set_effects(model_.effects(), model_.strutFor(model_.effects()));
-    if (baseline_.known()) set_baseline(*baseline_.known());
-  }
+  /// Gives a new monitor the model and the baseline of this strut.
+  void begin(MessagePipeline& pipeline) const;
 
   /// @pre there is a monitor.
   void publish(const MonitorReport& report);
@@ -65,16 +69,25 @@ class LiveStrut {
   const LiveBaseline& baseline() const { return baseline_; }
 
  private:
+  using Trigger = std_srvs::Trigger;
+
+  const SuspensionMonitor* monitor() const;  // nullptr: none yet
+  bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
+  bool onSaveModel(Trigger::Request& request, Trigger::Response& response);
+  bool onSaveBaseline(Trigger::Request& request, Trigger::Response& response);
+  bool onReset(Trigger::Request& request, Trigger::Response& response);
+  std::optional<MotionScale> motionScaleNow() const;
   void keepBaseline();
 
+  StrutHost& host_;
+  std::size_t place_;
   std::string name_, prefix_;  // of what is told of it
   PipelineOptions options_;
-  Host host_;
   LiveModel model_;
   LiveBaseline baseline_;
   StrutDiagnostics diagnostics_;
   std::optional<ReportTopics> reports_;
-  std::optional<StrutServices> services_;
+  std::array<ros::ServiceServer, 4> services_;
   std::optional<DiagnoseService<Diagnose>> diagnose_;
   std::optional<diagnostic_updater::Updater> updater_;
 };

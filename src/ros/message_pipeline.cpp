@@ -93,9 +93,9 @@ std::optional<MountClaim::Finding> MessagePipeline::mount(std::size_t sensor) co
 
 std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::string>& names) const {
   std::vector<bool> is_inclined(mounts_.size(), false);
-  for (const VehicleChannels::Strut& strut : streams_.channels.struts) {
-    if (!strut.sprung) continue;
-    const std::size_t top = streams_.options[*strut.sprung].sensor, wheel = streams_.options[strut.unsprung].sensor;
+  for (std::size_t i = 0; i < num_struts_; ++i) {
+    if (!streams_.channels.struts[i].sprung) continue;
+    const std::size_t top = streams_.bodyImuOf(i), wheel = streams_.wheelImuOf(i);
     const auto a = mount(top), b = mount(wheel);
     is_inclined[top] = is_inclined[wheel] = a && b && a->leansAs(*b);
   }

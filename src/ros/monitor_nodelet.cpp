@@ -20,9 +20,7 @@ MonitorNodelet::~MonitorNodelet() {
   diagnose_.reset();
   tick_.stop();
   body_.stop();
-  imus_.reset();
-  forces_.reset();
-  temperatures_.reset();
+  topics_.reset();
   reset_.shutdown();
   struts_.clear();
 }
@@ -32,17 +30,14 @@ void MonitorNodelet::onInit() {
   startOrRefuse(private_node, [&] {
     options_ = optionsFrom(readParameters(private_node));
     placement_.emplace(options_.layout);
-    const std::vector<std::string> imus = placement_->streams().topicsOfImus();
-    imus_.emplace(node, imus, !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(),
-                  [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); });
-    forces_.emplace(node, placement_->streams().topicsOfForces(),
-                    [this, first = imus.size()](std::size_t force, const geometry_msgs::WrenchStamped& message) {
-                      onMessage(first + force, message);
-                    });
-    temperatures_.emplace(node, options_.temperatureTopics(),
-                          [this](std::size_t strut, const sensor_msgs::Temperature& message) {
-                            if (pipeline_) pipeline_->push(strut, message);
-                          });
+    SensorTopics::Sinks sinks{
+        [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); },
+        [this](std::size_t force, const geometry_msgs::WrenchStamped& message) { onMessage(force, message); },
+        [this](std::size_t strut, const sensor_msgs::Temperature& message) {
+          if (pipeline_) pipeline_->push(strut, message);
+        }};
+    topics_.emplace(node, placement_->streams(), options_.temperatureTopics(),
+                    !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(), sinks);
     addStruts();
     makePipeline();
   });
@@ -50,66 +45,23 @@ void MonitorNodelet::onInit() {
 }
 
 void MonitorNodelet::addStruts() {
+  StrutHost& host = *this;
   for (std::size_t i = 0; i < options_.struts.size(); ++i) {
     const std::string& name = options_.layout.struts[i].name;
     prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
-      struts_.push_back(std::make_unique<LiveStrut>(name, options_.struts[i], options_.model_of[i], hostOf(i)));
+      struts_.push_back(std::make_unique<LiveStrut>(host, i, options_, name.empty() ? getName() : name));
     });
   }
 }
 
-LiveStrut::Host MonitorNodelet::hostOf(std::size_t i) {
-  LiveStrut::Host host;
-  host.title = options_.layout.struts[i].name;
-  host.monitor = [this, i] { return pipeline_ ? pipeline_->strut(i) : nullptr; };
-  host.set_effects = [this, i](const auto& effects, const auto& strut) {
-    if (pipeline_) pipeline_->setEffects(effects, strut, i);
-  };
-  host.set_baseline = [this, i](const Baseline& baseline) {
-    if (pipeline_) pipeline_->setBaseline(baseline, i);
-  };
-  host.newest_samples = [this, i] {
-    return pipeline_ ? pipeline_->newestSamples(options_.common.shell.diagnose_window).struts[i].samples
-                     : std::vector<CornerSample>{};
-  };
-  host.why_none = [this] { return whyNoMonitor(); };
-  host.silent_topics = [this] { return input().silentTopics(); };
-  host.frame = [this, imu = placement_->streams().bodyImuOf(i)]() -> const std::string& { return imus_->frame(imu); };
-  host.describe_input = [this, i](LiveStrut::Status& status) {
-    diagnostics_->input().describeStrut(i, pipeline(), placement_->missing(), status);
-  };
-  host.queue = &thread_->queue();
-  host.search = [this, i](double window) {
-    return searchOf(vehicleSamples(window), i, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
-  };
-  host.reset = [this] { return reset(); };
-  if (isAlone()) completeAlone(host);
-  return host;
-}
-
-void MonitorNodelet::completeAlone(LiveStrut::Host& host) {
-  host.title = getName();
-  host.describe_input = [this](LiveStrut::Status& status) {
-    strut_input_->describe(*pipeline_, status);
-    input_log_->note(status);
-  };
-  host.search = [this](double window) {
-    return searchOf(strutSamples(window), [this](const Diagnosis& found) { takeDiagnosis(found); });
-  };
-}
-
 void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
-  if (isAlone()) {
-    strut_input_.emplace(options_.common.shell,
-                         std::array{imus_->topic(indexOf(Side::kSprung)), imus_->topic(indexOf(Side::kUnsprung))});
-    input_log_.emplace(getName() + " input", LiveStrut::Status::ERROR, options_.common.shell.input_timeout);
-  } else {
-    diagnostics_.emplace(node, private_node, getName(), options_, *placement_, topics());
-  }
+  input_.emplace(options_, placement_->streams(), topics_->names());
+  input_log_.emplace(getName() + " input", Status::ERROR, options_.common.shell.input_timeout);
+  if (!isAlone())
+    diagnostics_.emplace(node, private_node, getName(), options_, *placement_,
+                         [this](Status& status) { describeInput(status); });
   for (const auto& strut : struts_) strut->start(node, private_node);
-  imus_->listen();
-  forces_->listen();
-  temperatures_->listen();
+  topics_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
 }
@@ -117,7 +69,7 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
 void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
   const MonitorOptions& options = options_.struts.front().monitor;
   NODELET_INFO("listens to %s (body) and %s (wheel); sample period %s, horizon %g s, memory %g s; health against %s",
-               imus_->topic(indexOf(Side::kSprung)).c_str(), imus_->topic(indexOf(Side::kUnsprung)).c_str(),
+               topics_->names()[indexOf(Side::kSprung)].c_str(), topics_->names()[indexOf(Side::kUnsprung)].c_str(),
                options.sample_period ? formatted("%g s", *options.sample_period).c_str() : "measured",
                MonitorSettings(options).presentHorizon(), MonitorSettings(options).presentMemory(),
                struts_.front()->baseline().reference(options).c_str());
@@ -129,35 +81,33 @@ void MonitorNodelet::startAlone(ros::NodeHandle& private_node) {
 
 void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
   NODELET_INFO("%zu struts (%s) listen to %s", struts_.size(), join(options_.strutNames(), ", ").c_str(),
-               join(topics(), ", ").c_str());
+               join(topics_->names(), ", ").c_str());
   body_ = private_node.createWallTimer(ros::WallDuration(kBodyPeriod), [this](const ros::WallTimerEvent&) {
     if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
   });
   reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
   diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
-    return searchOf(vehicleSamples(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
+    return searchOf(samplesFor(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
   });
-}
-
-std::vector<std::string> MonitorNodelet::topics() const {
-  std::vector<std::string> topics;
-  const VehicleStreams& streams = placement_->streams();
-  const std::size_t num_imus = streams.topicsOfImus().size();
-  for (std::size_t i = 0; i < streams.sensors.size(); ++i)
-    topics.push_back(i < num_imus ? imus_->topic(i) : forces_->name(i - num_imus));
-  return topics;
 }
 
 void MonitorNodelet::makePipeline() {
   pipeline_.reset();
-  const std::optional<VehicleStreams> placed = placement_->find(options_.common.shell, imus_->transforms());
+  const std::optional<VehicleStreams> placed = placement_->find(options_.common.shell, topics_->transforms());
   if (!placed) return;
   pipeline_.emplace(
-      options_, *placed, &imus_->transforms(),
+      options_, *placed, &topics_->transforms(),
       [this](std::size_t strut, const MonitorReport& report) { struts_[strut]->publish(report); }, true);
-  for (std::size_t i = 0; i < struts_.size(); ++i)
-    struts_[i]->begin([&](const auto& effects, const auto& strut) { pipeline_->setEffects(effects, strut, i); },
-                      [&](const Baseline& baseline) { pipeline_->setBaseline(baseline, i); });
+  for (const auto& strut : struts_) strut->begin(*pipeline_);
+}
+
+void MonitorNodelet::describeInput(Status& status) {
+  input_->describe(pipeline(), placement_->missing(), status);
+  input_log_->note(status);
+}
+
+void MonitorNodelet::describeInput(std::size_t strut, Status& status) {
+  isAlone() ? describeInput(status) : input_->describeStrut(strut, pipeline(), placement_->missing(), status);
 }
 
 void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
@@ -168,7 +118,7 @@ void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
 
 template <class Message>
 void MonitorNodelet::onMessage(std::size_t sensor, const Message& message) {
-  input().noteMessage(sensor, message.header.stamp);
+  input_->noteMessage(sensor, message.header.stamp);
   if (!pipeline_) return;
   try {
     pipeline_->push(sensor, message);
@@ -191,9 +141,8 @@ void MonitorNodelet::onReconfigure(LiveSettings& settings) {
 
 void MonitorNodelet::stopListening(const std::string& reason) {
   NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
-  input().setRefusal(reason);
-  imus_->stop();
-  forces_->stop();
+  input_->setRefusal(reason);
+  topics_->stop();
 }
 
 void MonitorNodelet::onTick() {
@@ -207,9 +156,8 @@ void MonitorNodelet::onTick() {
 std::string MonitorNodelet::reset() {
   makePipeline();
   for (const auto& strut : struts_) strut->publishModel();
-  input().restart();
-  imus_->listen();
-  forces_->listen();
+  input_->restart();
+  topics_->listen();
   return isAlone() ? "estimates, filters and counters start anew"
                    : "estimates, coupling, filters and counters of the whole vehicle start anew";
 }
@@ -220,36 +168,26 @@ bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Res
   return true;
 }
 
-SearchTask MonitorNodelet::strutSamples(double window) const {
-  const double span = searchSpan(window, options_.common.shell.diagnose_window);
-  const SuspensionMonitor* monitor = pipeline_->strut();
-  if (monitor == nullptr) throw std::runtime_error("the sample period is still being measured: drive on");
-  SearchTask task;
-  task.drive = pipeline_->newestSamples(span).struts.front();
-  task.options.sample_period = monitor->period();
-  task.options.horizon_samples = monitor->horizonSamples();
-  const LiveModel& model = struts_.front()->model();
-  task.options.candidates = model.library();
-  const StrutEstimate& estimate = monitor->modelEstimate();
-  if (!model.effects().empty() && estimate.valid())
-    task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor->effects(), {}};
-  return task;
+DiagnoseService<Diagnose>::Search MonitorNodelet::searchFor(std::size_t strut, double window) {
+  return searchOf(samplesFor(window), strut, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
 }
 
-VehicleSearchTask MonitorNodelet::vehicleSamples(double window) const {
+SearchTask MonitorNodelet::samplesFor(double window) {
   const double span = searchSpan(window, options_.common.shell.diagnose_window);
   if (!pipeline_ || pipeline_->monitor() == nullptr) throw std::runtime_error(whyNoMonitor() + ": drive on");
-  VehicleSearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
+  SearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
   pipeline_->grid()->describe(task.drive);
   if (task.drive.struts.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
   task.options.sample_period = pipeline_->period();
-  task.options.candidates = struts_.front()->model().library();
+  const LiveModel& model = struts_.front()->model();
+  task.options.candidates = model.library();
+  if (!isAlone()) return task;
+  const SuspensionMonitor& monitor = *pipeline_->strut();
+  task.options.horizon_samples = monitor.horizonSamples();
+  const StrutEstimate& estimate = monitor.modelEstimate();
+  if (!model.effects().empty() && estimate.valid())
+    task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor.effects(), {}};
   return task;
-}
-
-void MonitorNodelet::takeDiagnosis(const Diagnosis& found) {
-  struts_.front()->setDiagnosis(found);
-  onTick();
 }
 
 void MonitorNodelet::takeDiagnosis(const VehicleDiagnosis& found) {

@@ -1,11 +1,9 @@
 #pragma once
 
 #include <dynamic_reconfigure/server.h>
-#include <geometry_msgs/WrenchStamped.h>
 #include <nodelet/nodelet.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
-#include <sensor_msgs/Temperature.h>
 #include <std_srvs/Trigger.h>
 
 #include <memory>
@@ -13,19 +11,17 @@
 #include <string>
 #include <vector>
 
-#include "imu_topics.h"
-#include "input_diagnostics.h"
+#include "input_task.h"
+#include "live_search.h"
 #include "live_settings.h"
 #include "live_strut.h"
 #include "message_pipeline.h"
-#include "message_topics.h"
 #include "monitor_thread.h"
-#include "strut_search.h"
+#include "sensor_topics.h"
 #include "task_log.h"
 #include "vehicle_diagnostics.h"
 #include "vehicle_options.h"
-#include "vehicle_placement.h"
-#include "vehicle_search.h"
+#include "vehicle_sensors.h"
 
 namespace suspension_health_monitor {
 
@@ -33,7 +29,7 @@ namespace suspension_health_monitor {
 /// name, and how the struts move one another. One strut alone is a vehicle with one strut, whose topics are those of
 /// the node and whose settings may change while it runs. Every callback comes from one thread, that of all monitors of
 /// the process, so nothing here needs a lock; ~diagnose works beside it.
-class MonitorNodelet : public nodelet::Nodelet {
+class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
  public:
   ~MonitorNodelet() override;
 
@@ -43,46 +39,47 @@ class MonitorNodelet : public nodelet::Nodelet {
   void onInit() override;
 
   virtual VehicleOptions optionsFrom(const OptionMap& values) const { return VehicleOptions::ofOneStrut(values); }
-  bool isAlone() const { return options_.layout.struts.front().name.empty(); }
+  bool isAlone() const { return options_.isOneStrut(); }
 
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void startAlone(ros::NodeHandle& private_node);
   void startVehicle(ros::NodeHandle& private_node);
   void addStruts();
-  LiveStrut::Host hostOf(std::size_t i);
-  void completeAlone(LiveStrut::Host& host);
-  std::vector<std::string> topics() const;
   void makePipeline();
 
+  void describeInput(Status& status);
   void onImu(std::size_t imu, const sensor_msgs::Imu& message);
   template <class Message>
   void onMessage(std::size_t sensor, const Message& message);
   void onReconfigure(LiveSettings& settings);
   void onTick();
-  std::string reset();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  SearchTask strutSamples(double window) const;
-  VehicleSearchTask vehicleSamples(double window) const;
-  void takeDiagnosis(const Diagnosis& found);
+  SearchTask samplesFor(double window);
   void takeDiagnosis(const VehicleDiagnosis& found);
   void stopListening(const std::string& reason);
 
-  std::string whyNoMonitor() const { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
-  InputTask& input() { return isAlone() ? static_cast<InputTask&>(*strut_input_) : diagnostics_->input(); }
-  const MessagePipeline* pipeline() const { return pipeline_ ? &*pipeline_ : nullptr; }
+  // As its struts see it:
+  MessagePipeline* pipeline() override { return pipeline_ ? &*pipeline_ : nullptr; }
+  std::string whyNoMonitor() override { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
+  std::vector<std::string> silentTopics() const override { return input_->silentTopics(); }
+  const std::string& frameOf(std::size_t strut) const override {
+    return topics_->frame(placement_->streams().bodyImuOf(strut));
+  }
+  void describeInput(std::size_t strut, Status& status) override;
+  DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) override;
+  std::string reset() override;
+  ros::CallbackQueueInterface& queue() override { return thread_->queue(); }
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
   std::optional<VehiclePlacement> placement_;
-  std::optional<ImuTopics> imus_;
-  std::optional<MessageTopics<geometry_msgs::WrenchStamped>> forces_;
-  std::optional<MessageTopics<sensor_msgs::Temperature>> temperatures_;
+  std::optional<SensorTopics> topics_;
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
   std::vector<std::unique_ptr<LiveStrut>> struts_;
+  std::optional<InputTask> input_;
+  std::optional<TaskLog> input_log_;
   ros::WallTimer tick_, body_;
   // Of one strut alone:
-  std::optional<InputDiagnostics> strut_input_;
-  std::optional<TaskLog> input_log_;
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
   // Of a vehicle:
   std::optional<VehicleDiagnostics> diagnostics_;

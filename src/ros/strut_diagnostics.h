@@ -2,6 +2,7 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <ros/time.h>
 
 #include <cstdint>
 #include <functional>
@@ -10,12 +11,44 @@
 #include <utility>
 #include <vector>
 
-#include "drive_summary.h"
 #include "live_model.h"
+#include "suspension_health_monitor/internal/monitor/level_times.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "task_log.h"
 
 namespace suspension_health_monitor {
+
+/// Tells the terminal at the end of a drive how it was: the worst level, how long each lasted, and the last estimates.
+/// A drive ends with this object, or once a simulated clock, that of a bag, has stood still for a while; what comes
+/// later is told with what came before.
+class DriveSummary {
+ public:
+  /// @param strut  as the lines name it.
+  /// @param timeout  [s]: reports further apart say nothing of the time between them, which is stale; and so long, by
+  /// the wall, a clock stands still first.
+  DriveSummary(const std::string& strut, double timeout);
+  ~DriveSummary();
+  DriveSummary(const DriveSummary&) = delete;
+  DriveSummary& operator=(const DriveSummary&) = delete;
+
+  /// Takes in a report of any sample. No allocation.
+  void add(const MonitorReport& report);
+
+  /// To be called now and then: has the clock stopped?
+  void watchClock();
+
+ private:
+  /// @param until  what ended the drive; empty: this object ends.  @param say  prints a line.
+  void tell(const char* until, void (*say)(const std::string& line));
+
+  std::string strut_;
+  double timeout_;  // [s]
+  MonitorReport newest_;
+  bool is_news_ = false;  // something has come since it was told
+  LevelTimes times_;
+  ros::Time clock_;
+  ros::WallTime stands_since_;
+};
 
 /// What /diagnostics says of one strut, as its monitor sees it: a task each for its health and its model.
 class StrutDiagnostics {

@@ -4,9 +4,132 @@
 
 #include "conversions.h"
 #include "strut_diagnostics.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
+  const Measured unknown{kUnknown, kUnknown};
+  const auto set = [](const Measured& from, double& value, double& stddev) {
+    value = from.value;
+    stddev = from.stddev;
+  };
+  set(body ? body->mass_to_pitch_inertia : unknown, msg.mass_to_pitch_inertia, msg.mass_to_pitch_inertia_stddev);
+  set(body ? body->mass_to_roll_inertia : unknown, msg.mass_to_roll_inertia, msg.mass_to_roll_inertia_stddev);
+  set(body ? body->x : unknown, msg.centre_of_gravity[0], msg.centre_of_gravity_stddev[0]);
+  set(body ? body->y : unknown, msg.centre_of_gravity[1], msg.centre_of_gravity_stddev[1]);
+}
+
+void describeBody(const BodyInertiaResult& found, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const auto add = [&](const char* name, const Measured& number) {
+    status.addf(name, "%.4g +- %.2g", number.value, number.stddev);
+  };
+  if (!found.body) return status.add("body", suspension_health_monitor::describe(found.doubt));
+  add("M/Iyy [1/m^2]", found.body->mass_to_pitch_inertia);
+  add("M/Ixx [1/m^2]", found.body->mass_to_roll_inertia);
+  add("centre of gravity x [m]", found.body->x);
+  add("centre of gravity y [m]", found.body->y);
+}
+
+void setBars(const std::vector<BodyFitResult::Bar>& bars, const std::vector<std::string>& struts, CouplingInUse& msg) {
+  for (const BodyFitResult::Bar& bar : bars) {
+    msg.bar_struts.insert(msg.bar_struts.end(), {struts[bar.struts.first], struts[bar.struts.second]});
+    for (const std::size_t end : {0, 1}) {
+      msg.bar_stiffness.push_back(bar.stiffness[end].value);
+      msg.bar_stiffness_stddev.push_back(bar.stiffness[end].stddev);
+      msg.bar_damping.push_back(bar.damping[end].value);
+      msg.bar_damping_stddev.push_back(bar.damping[end].stddev);
+    }
+  }
+}
+
+StrutPlaces placesOf(const VehicleMonitor& monitor) {
+  return monitor.vehicle() != nullptr ? monitor.vehicle()->places() : StrutPlaces{};
+}
+
+CouplingInUse toMsg(const VehicleCoupling& coupling, const VehicleMonitor* monitor,
+                    const std::vector<std::string>& struts, const std::vector<std::string>& forces) {
+  CouplingInUse msg;
+  msg.known = static_cast<bool>(coupling);
+  msg.reason = coupling.reason;
+  msg.names = struts;
+  msg.forces = forces;
+  msg.condition = kUnknown;
+  msg.model_error = coupling.model_error;
+  setBody(msg.known ? inertiaOf(monitor->body(), placesOf(*monitor)).body : std::nullopt, msg);
+  if (!msg.known) {
+    msg.ratios.assign(struts.size() * struts.size(), kUnknown);
+    msg.stddevs = msg.ratios;
+    msg.force_coefficients.assign(struts.size() * forces.size(), kUnknown);
+    msg.force_stddevs = msg.force_coefficients;
+    return msg;
+  }
+  for (std::size_t i = 0; i < struts.size(); ++i) {
+    msg.ratios.insert(msg.ratios.end(), coupling.ratios[i].begin(), coupling.ratios[i].end());
+    msg.stddevs.insert(msg.stddevs.end(), coupling.stddevs[i].begin(), coupling.stddevs[i].end());
+    for (const KnownForceCoefficients& force : coupling.forces) {
+      msg.force_coefficients.push_back(force.values[i]);
+      msg.force_stddevs.push_back(force.stddevs[i]);
+    }
+  }
+  if (monitor->body()) setBars(monitor->body()->found, struts, msg);
+  return msg;
+}
+
+/// What is not known is NaN in both, and alike.
+bool saysTheSame(const CouplingInUse& a, const CouplingInUse& b) {
+  return a.known == b.known && a.reason == b.reason &&
+         (!a.known || (a.ratios == b.ratios && a.stddevs == b.stddevs && a.force_stddevs == b.force_stddevs &&
+                       a.bar_stiffness == b.bar_stiffness));
+}
+
+}  // namespace
+
+VehicleCoupling CouplingOutput::known(const VehicleMonitor* monitor, const std::string& why_none) const {
+  if (monitor != nullptr) return couplingOf(*monitor, struts_, forces_);
+  VehicleCoupling none;
+  none.reason = why_none;
+  return none;
+}
+
+void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp) {
+  CouplingInUse msg = toMsg(known(monitor, why_none), monitor, struts_, forces_);
+  if (last_ && saysTheSame(*last_, msg)) return;
+  msg.header.stamp = stamp;
+  publisher_.publish(msg);
+  last_ = msg;
+}
+
+void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& why_none,
+                              diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  const VehicleCoupling coupling = known(monitor, why_none);
+  if (!coupling) {
+    status.summary(DiagnosticStatus::STALE, (monitor != nullptr ? "the drives so far " : "") + coupling.reason);
+    return;
+  }
+  status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
+  if (const std::string mistake = describeMistake(*monitor, struts_); !mistake.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, mistake);
+  status.addf("model error", "%.2g %%", 100.0 * coupling.model_error);
+  if (struts_.size() > 1) describeBody(inertiaOf(monitor->body(), placesOf(*monitor)), status);
+  for (const AntiRollBarFound& bar : coupling.bars)
+    status.addf("anti-roll bar " + struts_[bar.first] + " - " + struts_[bar.second], "%.4g and %.4g 1/s^2",
+                bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    for (std::size_t j = 0; j < struts_.size(); ++j)
+      if (i != j)
+        status.addf(struts_[i] + " moved by " + struts_[j], "%.3f +- %.3f", coupling.ratios[i][j],
+                    coupling.stddevs[i][j]);
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    for (const KnownForceCoefficients& force : coupling.forces)
+      status.addf(struts_[i] + " moved by " + force.name, "%.4g +- %.2g m/s^2 per unit", force.values[i],
+                  force.stddevs[i]);
+}
+
 namespace {
 
 const VehicleMonitor* monitorOf(const MessagePipeline* pipeline) {
@@ -19,12 +142,10 @@ const VehicleMonitor* monitorOf(const MessagePipeline* pipeline) {
 // once, so that the status of a strut would be lost behind that of the next.
 VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
                                        const VehicleOptions& options, const VehiclePlacement& placement,
-                                       const std::vector<std::string>& topics)
+                                       const std::function<void(Status&)>& describe_input)
     : placement_(placement),
       struts_(options.strutNames()),
       publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
-      input_(options.common.shell, placement.streams(), topics),
-      input_log_(name + " input", Status::ERROR, options.common.shell.input_timeout),
       coupling_log_(name + " coupling"),
       coupling_(private_node, struts_, options.forceNames()),
       corners_(CornerOutput::of(node, struts_)),
@@ -34,10 +155,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
     coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), status);
     coupling_log_.note(status);
   });
-  updater_.add("Input", [this](Status& status) {
-    input_.describe(pipeline_, placement_.missing(), status);
-    input_log_.note(status);
-  });
+  updater_.add("Input", describe_input);
   if (corners_) updater_.add("Corners", [this](Status& status) { corners_->describe(status); });
 }
 

@@ -2,31 +2,58 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <suspension_health_monitor/CouplingInUse.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "corner_output.h"
-#include "coupling_output.h"
 #include "message_pipeline.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/vehicle.h"
 #include "task_log.h"
-#include "vehicle_input.h"
 #include "vehicle_options.h"
-#include "vehicle_placement.h"
+#include "vehicle_sensors.h"
 
 namespace suspension_health_monitor {
+
+/// What a vehicle's monitor knows of how the struts move one another: the latched topic ~coupling and a task of
+/// /diagnostics.
+class CouplingOutput {
+ public:
+  /// @param struts, forces  their names.
+  CouplingOutput(ros::NodeHandle& private_node, const std::vector<std::string>& struts,
+                 const std::vector<std::string>& forces)
+      : struts_(struts), forces_(forces), publisher_(private_node.advertise<CouplingInUse>("coupling", 1, true)) {}
+
+  /// Publishes what is known, if it is not what was published last.
+  /// @param monitor  nullptr: none yet, and then why.  @param stamp  of the newest sample.
+  void publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp);
+
+  /// The task "Coupling".
+  void describe(const VehicleMonitor* monitor, const std::string& why_none,
+                diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+ private:
+  VehicleCoupling known(const VehicleMonitor* monitor, const std::string& why_none) const;
+
+  std::vector<std::string> struts_, forces_;
+  ros::Publisher publisher_;
+  std::optional<CouplingInUse> last_;
+};
 
 /// What a live vehicle says as a whole: the tasks Coupling, Input and, with four corners, Corners of /diagnostics,
 /// ~coupling and corners/comparison.
 class VehicleDiagnostics {
  public:
-  /// @param topics  by VehicleStreams::sensors.  @param placement  outlives this object.
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+  /// @param placement  outlives this object.
   VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
                      const VehicleOptions& options, const VehiclePlacement& placement,
-                     const std::vector<std::string>& topics);
-
-  VehicleInput& input() { return input_; }
+                     const std::function<void(Status&)>& describe_input);
 
   /// @param pipeline  nullptr: none, as the struts have no places yet.
   void publish(const MessagePipeline* pipeline);
@@ -35,13 +62,10 @@ class VehicleDiagnostics {
   std::string whyNoMonitor(const MessagePipeline* pipeline) const;
 
  private:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   const VehiclePlacement& placement_;
   std::vector<std::string> struts_;  // their names
   ros::Publisher publisher_;         // of all updaters, also of those of the struts
-  VehicleInput input_;
-  TaskLog input_log_, coupling_log_;
+  TaskLog coupling_log_;
   CouplingOutput coupling_;
   std::optional<CornerOutput> corners_;
   const MessagePipeline* pipeline_ = nullptr;  // during publish() only

@@ -11,7 +11,7 @@
 #include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/wording/words.h"
-#include "vehicle_file.h"
+#include "yaml_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -133,5 +133,10 @@ std::vector<std::string> VehicleOptions::temperatureTopics() const {
 }
 
 std::vector<std::string> VehicleOptions::strutNames() const { return namesOf(layout.struts); }
+
+VehicleLayout readVehicleFile(const std::string& path) {
+  OptionMap values = readYaml(path);
+  return prefixed(path + ": ", [&] { return takeVehicle(values); });
+}
 
 }  // namespace suspension_health_monitor

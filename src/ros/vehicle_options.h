@@ -8,6 +8,10 @@
 
 namespace suspension_health_monitor {
 
+/// Reads which sensors a vehicle has, and where (vehicle/vehicle_layout.h).
+/// @throws std::invalid_argument  naming the file and what is wrong in it.
+VehicleLayout readVehicleFile(const std::string& path);
+
 /// What VehicleNodelet is set to: `vehicle`, the file that says which sensors the vehicle has, or `vehicle/...`, what
 /// such a file says; the settings of config/monitor.yaml for all struts; and `struts/NAME/SETTING` where a strut
 /// differs. A `model_file` for all has the models of all, as `suspension_bag diagnose --vehicle -o` writes it.
@@ -27,6 +31,7 @@ struct VehicleOptions {
   static VehicleOptions ofOneStrut(const OptionMap& values) { return ofOneStrut(PipelineOptions::fromValues(values)); }
   static VehicleOptions ofOneStrut(const PipelineOptions& options);
 
+  bool isOneStrut() const { return layout.struts.front().name.empty(); }  ///< alone, not of a vehicle file
   std::vector<std::string> strutNames() const;
   std::vector<std::string> forceNames() const;         ///< of known forces
   std::vector<std::string> temperatureTopics() const;  ///< by strut; empty: it has no thermometer

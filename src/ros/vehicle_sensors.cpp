@@ -2,12 +2,17 @@
 
 #include <array>
 #include <stdexcept>
-#include <variant>
 
 namespace suspension_health_monitor {
 namespace {
 
 using Place = VehicleStreams::Place;
+
+VehicleStreams streamsAnywhere(VehicleLayout layout) {
+  for (VehicleLayout::Strut& strut : layout.struts)
+    if (strut.frame) strut.position.emplace();
+  return VehicleStreams(layout);
+}
 
 }  // namespace
 
@@ -26,19 +31,8 @@ VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions
 const std::vector<double>& VehicleSensors::read(std::size_t sensor, const sensor_msgs::Imu& message) {
   Sensor& its = sensors_[sensor];
   values_.clear();
-  if (its.place == Place::kBody) {
-    const auto axes = its.mount.sixAxes(message);
-    if (const auto* six = std::get_if<std::array<double, 6>>(&axes))
-      values_.assign(six->begin(), six->end());
-    else
-      its.rejected.add(std::get<RejectReason>(axes));
-  } else {
-    const auto acceleration = its.mount.acceleration(message);
-    if (const double* along = std::get_if<double>(&acceleration))
-      values_.push_back(*along);
-    else
-      its.rejected.add(std::get<RejectReason>(acceleration));
-  }
+  if (const std::optional<RejectReason> reason = its.mount.read(message, its.place == Place::kBody, values_))
+    its.rejected.add(*reason);
   return values_;
 }
 
@@ -55,7 +49,8 @@ void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const Shell
                  const tf2::BufferCore& transforms) {
   const std::string from = withoutSlash(imu.header.frame_id);
   ImuMount mount(options.sprung_axis, options.target_frame, std::nullopt, &transforms);
-  mount.acceleration(imu);  // finds the transform, if one is wanted
+  std::vector<double> values;
+  mount.read(imu, false, values);  // finds the transform, if one is wanted
   if (!mount.missingTransform().empty())
     throw std::invalid_argument("target_frame = \"" + options.target_frame +
                                 "\": no static transform to it from the frame of body_imu, " +
@@ -69,6 +64,22 @@ void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const Shell
                                   (from.empty() ? "which has no frame_id" : from));
     strut.position = mount.turned(transforms.lookupTransform(from, to, ros::Time()).transform.translation);
   }
+}
+
+VehiclePlacement::VehiclePlacement(const VehicleLayout& layout) : layout_(layout), streams_(streamsAnywhere(layout)) {}
+
+std::optional<VehicleStreams> VehiclePlacement::find(const ShellOptions& options, const tf2::BufferCore& transforms) {
+  if (!streams_.channels.body_imu || !layout_.hasFrames()) return streams_;
+  if (!body_message_) return std::nullopt;
+  VehicleLayout placed = layout_;
+  try {
+    placeFrames(placed, *body_message_, options, transforms);
+  } catch (const std::invalid_argument& error) {
+    missing_ = error.what();
+    return std::nullopt;
+  }
+  for (VehicleLayout::Strut& strut : placed.struts) strut.frame.reset();
+  return VehicleStreams(placed);
 }
 
 }  // namespace suspension_health_monitor

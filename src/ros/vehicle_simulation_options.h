@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "playing_options.h"
+#include "simulator_options.h"
 #include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
 

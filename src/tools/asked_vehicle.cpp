@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "../ros/vehicle_file.h"
+#include "../ros/vehicle_options.h"
 #include "../ros/vehicle_sensors.h"
 #include "bag_options.h"
 #include "command.h"

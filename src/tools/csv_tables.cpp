@@ -24,14 +24,10 @@ RowTable::RowTable(std::FILE* out, const AskedVehicle& vehicle)
 
 void RowTable::add(std::size_t strut, const MonitorReport& report) {
   if (!isOf(strut)) return;
-  std::deque<Row>& waiting = waiting_[strut];
+  std::deque<MonitorReport>& waiting = waiting_[strut];
   const bool clock_went_back = !waiting.empty() && report.stamp < waiting.back().stamp;
   while (clock_went_back && !waiting.empty()) write(strut, std::nullopt);
-  if (report.has_row)
-    waiting.push_back({report.stamp, report.ls.damping_to_mass, report.ls.stiffness_to_mass, report.la.damping_to_mass,
-                       report.la.stiffness_to_mass, report.measured, report.estimate.damping_to_mass,
-                       report.estimate.stiffness_to_mass, report.estimate.damping_to_mass_stddev,
-                       report.estimate.stiffness_to_mass_stddev});
+  if (report.has_row) waiting.push_back(report);
   const ComparisonReport& comparison = report.comparison;
   while (comparison.has_sample && !waiting.empty() && waiting.front().stamp <= comparison.stamp)
     write(strut, waiting.front().stamp == comparison.stamp ? comparison.predicted : std::nullopt);
@@ -43,16 +39,17 @@ void RowTable::finish() {
 }
 
 void RowTable::write(std::size_t strut, const std::optional<double>& predicted) {
-  const Row row = waiting_[strut].front();
+  const MonitorReport row = waiting_[strut].front();
   waiting_[strut].pop_front();
   beginLine(strut, row.stamp);
-  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g,%.17g,", row.ls_damping, row.ls_stiffness, row.la_damping,
-               row.la_stiffness, row.measured);
+  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g,%.17g,", row.ls.damping_to_mass, row.ls.stiffness_to_mass,
+               row.la.damping_to_mass, row.la.stiffness_to_mass, row.measured);
   if (predicted)
     std::fprintf(out_, "%.17g,%.17g,", *predicted, row.measured - *predicted);
   else
     std::fputs("nan,nan,", out_);
-  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.damping, row.stiffness, row.damping_stddev, row.stiffness_stddev);
+  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.estimate.damping_to_mass, row.estimate.stiffness_to_mass,
+               row.estimate.damping_to_mass_stddev, row.estimate.stiffness_to_mass_stddev);
 }
 
 }  // namespace suspension_health_monitor

@@ -43,15 +43,9 @@ class RowTable : CsvTable {
   void finish();
 
  private:
-  struct Row {
-    Stamp stamp;
-    double ls_damping, ls_stiffness, la_damping, la_stiffness, measured;
-    double damping, stiffness, damping_stddev, stiffness_stddev;  // of the block estimate
-  };
-
   void write(std::size_t strut, const std::optional<double>& predicted);
 
-  std::vector<std::deque<Row>> waiting_;  // by strut
+  std::vector<std::deque<MonitorReport>> waiting_;  // by strut, with a row
 };
 
 }  // namespace suspension_health_monitor

@@ -1,17 +1,111 @@
+#include <boost/algorithm/string/replace.hpp>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "command.h"
-#include "health_page.h"
+#include "csv_tables.h"
+#include "html_page.h"
 #include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 namespace po = boost::program_options;
+using nlohmann::json;
+
+/// What the monitor says over time, and what it judges by then: evenly thinned, so that neither memory nor the page
+/// grows with the drive.
+using HealthCourse = Digest<std::pair<HealthMoment, Baseline>>;
+
+constexpr std::size_t kMostPoints = 4000;  // more than twice a screen's pixels
+
+/// The files that are asked for, begun, and what the page is made of while the monitor runs.
+struct HealthFiles {
+  HealthFiles(const po::variables_map& values, const AskedVehicle& vehicle)
+      : findings(outputFile(values, "json")),
+        csv(outputFile(values, "csv")),
+        table(csv ? csv->stream() : nullptr, vehicle, "level,message,b1,b0,b1_stddev,b0_stddev,offset"),
+        courses(vehicle.names.size(), HealthCourse(kMostPoints)) {
+    if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
+  }
+
+  void add(std::size_t strut, const HealthMoment& moment, const Baseline& judged_by);
+
+  std::optional<TextFile> findings, csv;
+  std::optional<HtmlPage> page;
+  CsvTable table;
+  std::vector<HealthCourse> courses;
+};
+
+void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
+  const StrutEstimate& estimate = moment.estimate;
+  if (table.isOf(strut))
+    std::fprintf(table.beginLine(strut, moment.stamp), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n",
+                 nameOf(moment.level), boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(),
+                 estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,
+                 estimate.stiffness_to_mass_stddev, moment.offset);
+  if (page) courses[strut].add({moment, judged_by});
+}
+
+json listOf(const std::vector<HealthMoment>& moments) {
+  json list = json::array();
+  for (const HealthMoment& moment : moments) {
+    list.push_back(toJson(moment));
+    list.back()["after"] = toSeconds(moment.elapsed);
+  }
+  return list;
+}
+
+json toJson(const HealthCourse& course) {
+  json time = json::array(), damping, stiffness;
+  for (const char* curve : {"value", "stddev", "healthy"}) damping[curve] = stiffness[curve] = json::array();
+  for (const auto& [moment, judged_by] : course.items()) {
+    const auto add = [valid = moment.estimate.valid()](double value, double stddev, const auto& healthy, json& into) {
+      constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // null in JSON: no line there
+      into["value"].push_back(valid ? value : kNothing);
+      into["stddev"].push_back(valid ? stddev : kNothing);
+      into["healthy"].push_back(healthy.value_or(kNothing));
+    };
+    const StrutEstimate& its = moment.estimate;
+    time.push_back(std::round(1e3 * toSeconds(moment.elapsed)) / 1e3);
+    add(its.damping_to_mass, its.damping_to_mass_stddev, judged_by.damping_to_mass, damping);
+    add(its.stiffness_to_mass, its.stiffness_to_mass_stddev, judged_by.stiffness_to_mass, stiffness);
+  }
+  return {{"time", time}, {"damping", shortened(damping)}, {"stiffness", shortened(stiffness)}};
+}
+
+/// What the scripts of the page expect of a strut.
+json findingsOf(const RecordedMonitor& recorded, std::size_t strut, const std::string& reference,
+                const std::vector<RecordedMonitor::Recording>& recordings) {
+  const SuspensionMonitor& monitor = recorded.strut(strut);
+  const HealthLog& log = recorded.log(strut);
+  const MonitorSettings& settings = monitor.options();
+  const double duration = toSeconds(log.elapsed());
+  const std::vector<std::string> names = namesOf(recordings);
+  json begins = json::array();
+  for (const auto& [name, from] : recordings) begins.push_back({{"name", name}, {"from", toSeconds(from)}});
+  return {{"strut", recorded.vehicle().names[strut]},
+          {"source", sourceOf(names, duration, monitor.period())},
+          {"horizon", monitor.horizonSamples() * monitor.period()},
+          {"judged_by", reference},
+          {"recordings", begins},
+          {"duration", duration},
+          {"seconds", secondsJson(log)},
+          {"events", listOf(log.events())},
+          {"end", toJson(log.latest())},
+          {"early_warnings", listOf(log.earlyWarnings())},
+          {"thresholds",
+           {{"damping", {settings.damping_warn, settings.damping_error}},
+            {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
+          {"estimates", estimatesJson(monitor)}};
+}
 
 void watchBags(const po::variables_map& values) {
   const BagOptions options = readLiveOptions(values);
@@ -22,20 +116,22 @@ void watchBags(const po::variables_map& values) {
                            [&](std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
                              files.add(strut, moment, judged_by);
                            });
-  const std::vector<HealthContent::Recording> recordings = recorded.read();
-  nlohmann::json whole = wholeJson(vehicle, recorded.coupling(), recorded.gaps());
-  std::vector<HealthContent> contents;
+  const std::vector<RecordedMonitor::Recording> recordings = recorded.read();
+  json whole = wholeJson(vehicle, recorded.coupling(), recorded.gaps()), struts = json::array();
   for (const std::size_t i : vehicle.asked) {
-    const SuspensionMonitor& strut = recorded.strut(i);
-    const std::string reference = describeReference(strut.baseline(), recorded.baselineFile(i));
-    vehicle.resultsOf(i, whole).update(toJson(recorded.log(i), strut));
-    contents.push_back({recorded.log(i), files.course(i), strut, recordings, reference, vehicle.names[i]});
+    vehicle.resultsOf(i, whole).update(toJson(recorded.log(i), recorded.strut(i)));
+    if (!files.page) continue;
+    struts.push_back(findingsOf(recorded, i, recorded.reference(i), recordings));
+    struts.back()["course"] = toJson(files.courses[i]);
   }
-  files.commit(whole, contents, originOf(values, options.bags.allTopics()));
+  if (files.findings) files.findings->commit(whole.dump(2) + '\n');
+  if (files.csv) files.csv->commit();
+  if (files.page)
+    files.page->write(healthTemplate(), {{"struts", struts}, {"origin", originOf(values, options.bags.allTopics())}});
   recorded.printInput();
-  for (std::size_t k = 0; k < contents.size(); ++k) {
-    std::printf("\n%s", vehicle.prefix(vehicle.asked[k], ", ").c_str());
-    printHealth(contents[k].log, contents[k].monitor, contents[k].reference);
+  for (const std::size_t i : vehicle.asked) {
+    std::printf("\n%s", vehicle.prefix(i, ", ").c_str());
+    printHealth(recorded.log(i), recorded.strut(i), recorded.reference(i));
   }
 }
 

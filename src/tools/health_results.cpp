@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "json_of.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/blocks/block_options.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
@@ -69,21 +70,14 @@ json secondsJson(const HealthLog& log) {
 }
 
 json estimatesJson(const SuspensionMonitor& monitor) {
-  const MonitorReport& report = monitor.report();
-  json blocks = toJson(toIdentified(report.estimate));
-  blocks["delay"] = report.estimate.delay;
-  blocks["delay_stddev"] = report.estimate.delay_stddev;
-  blocks["gain"] = report.estimate.gain;
-  blocks["gain_stddev"] = report.estimate.gain_stddev;
-  if (const auto& friction = report.estimate.friction)
-    blocks["friction"] = {
-        {"force", friction->force}, {"stddev", friction->stddev}, {"damping_gain", friction->damping_gain}};
-  blocks["age"] = report.estimate.age;
-  blocks["window"] = report.estimate.window;
-  json estimates{
-      {"estimate", blocks}, {"ls", toJson(toIdentified(report.ls))}, {"la", toJson(toIdentified(report.la))}};
-  estimates["ls"]["offset"] = report.ls.offset;
-  estimates["la"]["offset"] = report.la.offset;
+  json estimates;
+  const auto add = [&](const char* name, const StrutEstimate& estimate) {
+    estimates[name] = toJson(toIdentified(estimate));
+    estimates[name].update(jsonOf(estimate));
+  };
+  add("estimate", monitor.report().estimate);
+  add("ls", monitor.report().ls);
+  add("la", monitor.report().la);
   return estimates;
 }
 

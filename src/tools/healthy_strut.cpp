@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <utility>
 
 #include "../ros/live_baseline.h"
@@ -9,14 +8,6 @@
 
 namespace suspension_health_monitor {
 namespace {
-
-/// A baseline file has no nominal values, in no group.
-bool areSettings(const OptionMap& values) {
-  return std::any_of(values.begin(), values.end(), [](const auto& value) {
-    const std::size_t place = value.first.find("nominal/");
-    return place == 0 || (place != std::string::npos && value.first[place - 1] == '/');
-  });
-}
 
 /// @return by strut what the file of --baseline has of it; nothing where it has nothing.
 std::vector<std::optional<Baseline>> readHealthyStruts(const std::string& path, const AskedVehicle& vehicle) {

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <string>
 
+#include "json_of.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/words.h"
 
@@ -62,16 +63,10 @@ void printEstimates(const IdentifyResult& found, const std::optional<double>& ma
 }
 
 nlohmann::json toJson(const IdentifiedStrut& estimate) {
-  return {{"damping_to_mass", estimate.damping_to_mass},
-          {"stiffness_to_mass", estimate.stiffness_to_mass},
-          {"damping_to_mass_stddev", estimate.damping_to_mass_stddev},
-          {"stiffness_to_mass_stddev", estimate.stiffness_to_mass_stddev},
-          {"natural_frequency", estimate.naturalFrequency()},
-          {"damping_ratio", estimate.dampingRatio()},
-          {"valid", estimate.valid},
-          {"reason", estimate.reason},
-          {"explained", estimate.explained},
-          {"rows", estimate.rows}};
+  nlohmann::json result = jsonOf(estimate);
+  result["natural_frequency"] = estimate.naturalFrequency();
+  result["damping_ratio"] = estimate.dampingRatio();
+  return result;
 }
 
 nlohmann::json toJson(const IdentifyResult& found, const std::string& change) {
@@ -85,7 +80,6 @@ nlohmann::json toJson(const IdentifyResult& found, const std::string& change) {
                         {"estimate", toJson(found.estimate)},
                         {"ls", toJson(found.ls)},
                         {"la", toJson(found.la)}};
-  result["estimate"]["age"] = found.estimate.age;
   result["iv"] = result["estimate"];  // until the next version
   if (!change.empty()) result["change"] = change;
   return result;
@@ -112,14 +106,9 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
 }
 
 nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
-  nlohmann::json result{{"damping_to_wheel_mass", estimate.damping_to_wheel_mass},
-                        {"stiffness_to_wheel_mass", estimate.stiffness_to_wheel_mass},
-                        {"tyre_to_wheel_mass", estimate.tyre_to_wheel_mass},
-                        {"damping_to_wheel_mass_stddev", estimate.damping_to_wheel_mass_stddev},
-                        {"stiffness_to_wheel_mass_stddev", estimate.stiffness_to_wheel_mass_stddev},
-                        {"tyre_to_wheel_mass_stddev", estimate.tyre_to_wheel_mass_stddev},
-                        {"wheel_hop_frequency", estimate.wheelHopFrequency()},
-                        {"valid", estimate.valid()}};
+  nlohmann::json result = jsonOf(estimate);
+  result["wheel_hop_frequency"] = estimate.wheelHopFrequency();
+  result["valid"] = estimate.valid();
   if (const auto ratio = massRatio(strut, estimate)) result["mass_ratio"] = *ratio;
   return result;
 }

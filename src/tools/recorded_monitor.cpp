@@ -43,8 +43,8 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
   }
 }
 
-std::vector<HealthContent::Recording> RecordedMonitor::read() {
-  std::vector<HealthContent::Recording> recordings;
+std::vector<RecordedMonitor::Recording> RecordedMonitor::read() {
+  std::vector<Recording> recordings;
   const auto take = [this](std::size_t sensor, const auto& message, Stamp recorded) {
     if (sensor < numNeeded())
       for (HealthLog& log : logs_) log.addReading(sensor, toStamp(message.header.stamp), recorded);
@@ -119,8 +119,7 @@ VehicleIdentification RecordedMonitor::identified() {
 
 std::vector<std::string> RecordedMonitor::mountFaults(std::size_t strut) const {
   const std::vector<std::string> all = mountFaults();
-  std::vector<std::string> faults{all[streams_.bodyImuOf(strut)],
-                                  all[streams_.options[streams_.channels.struts[strut].unsprung].sensor]};
+  std::vector<std::string> faults{all[streams_.bodyImuOf(strut)], all[streams_.wheelImuOf(strut)]};
   faults.erase(std::remove(faults.begin(), faults.end(), ""), faults.end());
   return faults;
 }

@@ -6,9 +6,9 @@
 
 #include "../ros/live_model.h"
 #include "../ros/message_pipeline.h"
-#include "health_page.h"
 #include "strut_files.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
 
@@ -17,6 +17,12 @@ namespace suspension_health_monitor {
 class RecordedMonitor {
  public:
   using Row = std::function<void(std::size_t strut, const HealthMoment&, const Baseline&)>;
+
+  /// A bag, and the time elapsed when it begins.
+  struct Recording {
+    std::string name;
+    Stamp from;
+  };
   using Report = std::function<void(std::size_t strut, const MonitorReport&)>;
 
   /// Reads the models that the settings name.
@@ -31,7 +37,7 @@ class RecordedMonitor {
 
   /// Reads one bag after the other.
   /// @throws TooLittleError  if the bags hold too little for one row of a strut that is asked for.
-  std::vector<HealthContent::Recording> read();
+  std::vector<Recording> read();
 
   /// Tells people what the bags hold: period and horizons, samples, what was kept out, how readings were aligned, which
   /// topics were silent, how gravity contradicts the settings.
@@ -56,6 +62,11 @@ class RecordedMonitor {
 
   /// @return the file that a strut's baseline was read from; empty: none was.
   std::string baselineFile(std::size_t strut) const { return healthy_[strut] ? healthy_[strut]->file : ""; }
+
+  /// @return what a strut was judged by at the end, in words.
+  std::string reference(std::size_t place) const {
+    return describeReference(strut(place).baseline(), baselineFile(place));
+  }
 
  private:
   std::size_t numNeeded() const { return topics_.size() - options_.bags.not_needed; }

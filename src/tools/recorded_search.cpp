@@ -16,19 +16,6 @@ std::optional<int> givenHorizon(const BagOptions& options, std::size_t strut) {
   return MonitorSettings(settings).horizonSamples(options.period());
 }
 
-/// A strut alone has nothing that it is to be separated from.
-std::vector<Drive> drivesOfOne(const std::vector<VehicleDrive>& drives) {
-  std::vector<Drive> own;
-  for (const VehicleDrive& drive : drives) own.push_back(drive.struts.front());
-  return own;
-}
-
-SeparatedVehicle separated(const AskedDrives& asked) {
-  const BagOptions& options = asked.options;
-  if (options.vehicle.isStrutAlone()) return {{}, {drivesOfOne(asked.drives)}, {}};
-  return separateVehicle(asked.drives, options.vehicle.names, options.period(), asked.models);
-}
-
 VehicleDiagnosis searched(const AskedDrives& asked, const DiagnoseOptions& searching) {
   const AskedVehicle& vehicle = asked.options.vehicle;
   std::vector<DiagnoseOptions> by_strut(vehicle.names.size(), searching);
@@ -36,11 +23,7 @@ VehicleDiagnosis searched(const AskedDrives& asked, const DiagnoseOptions& searc
     by_strut[i].horizon_samples = givenHorizon(asked.options, i);
     by_strut[i].model = asked.models[i];
   }
-  if (!vehicle.isStrutAlone()) return diagnoseVehicle(asked.drives, vehicle.names, by_strut, asked.models);
-  VehicleDiagnosis found;
-  found.drives = {drivesOfOne(asked.drives)};
-  found.struts = {diagnose(found.drives.front(), by_strut.front())};
-  return found;
+  return diagnoseVehicle(asked.drives, vehicle.names, by_strut, asked.models);
 }
 
 void requireCoupling(const VehicleCoupling& coupling) {
@@ -75,7 +58,7 @@ void AskedDrives::read() {
 
 RecordedComparison compareBags(const AskedDrives& asked, const std::function<void(double)>& progress) {
   const AskedVehicle& vehicle = asked.options.vehicle;
-  const SeparatedVehicle own = separated(asked);
+  const SeparatedVehicle own = separateVehicle(asked.drives, vehicle.names, asked.options.period(), asked.models);
   asked.gaps.explain([&] { requireCoupling(own.coupling); });
   RecordedComparison result{own.coupling, {}};
   for (const std::size_t i : vehicle.asked) {

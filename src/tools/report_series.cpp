@@ -99,7 +99,7 @@ json drivesJson(const ReportContent& content) {
     json stretches = json::array();
     for (std::size_t i = 0; i < content.before.segments.size(); ++i) {
       const ComparedSegment& segment = content.before.segments[i];
-      if (segment.record != r || segment.size() < 2) continue;
+      if (segment.drive != r || segment.size() < 2) continue;
       stretches.push_back(stretchJson(segment, content.after ? &content.after->segments.at(i) : nullptr, range));
       const std::pair<double, double> here = worstSpan(segment, span);
       if (here.second > worst.second) worst = here;

@@ -58,9 +58,6 @@ nlohmann::json toJson(const Diagnosis& found);
 void printComparison(const Comparison& comparison);
 nlohmann::json toJson(const Comparison& comparison);
 
-/// @return damping_to_mass and stiffness_to_mass by name.
-nlohmann::json parametersOf(const StrutModel& model);
-
 /// Adds "coefficients" and "shapes" by name.
 void addNumbers(const StrutModel& model, nlohmann::json& into);
 

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "json_of.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 #include "suspension_health_monitor/internal/wording/words.h"
@@ -63,10 +64,6 @@ void printSearch(const Diagnosis& found) {
   printFit(*found.final_fit);
 }
 
-json parametersOf(const StrutModel& model) {
-  return {{"damping_to_mass", model.damping_to_mass}, {"stiffness_to_mass", model.stiffness_to_mass}};
-}
-
 void addNumbers(const StrutModel& model, json& into) {
   into["coefficients"] = into["shapes"] = json::object();
   for (const ModelNumber& number : numbersOf(model)) {
@@ -83,7 +80,7 @@ json toJson(const Diagnosis& found) {
              {"error_removed_percent", ranked.error_removed_percent},
              {"significant", ranked.significant},
              {"fitted", ranked.fitted},
-             {"parameters", parametersOf(ranked.model)}};
+             {"parameters", jsonOf(ranked.model)}};
     if (ranked.failure != FitFailure::kNone) row["failure"] = reasonOf(ranked.failure);
     addNumbers(ranked.model, row);
     ranking.push_back(row);
@@ -92,7 +89,7 @@ json toJson(const Diagnosis& found) {
              {"base",
               {{"held_out_rmse", found.base.held_out_rmse},
                {"fit_percent", found.base_fit_percent},
-               {"parameters", parametersOf(found.base.model)}}},
+               {"parameters", jsonOf(found.base.model)}}},
              {"noise_floor", found.noise_floor},
              {"structured_share", found.structured_share},
              {"surface_share", found.surface_share},
@@ -105,7 +102,7 @@ json toJson(const Diagnosis& found) {
     whole["explained_share"] = found.explained_share;
     json extended{{"held_out_rmse", found.extended->held_out_rmse},
                   {"fit_percent", found.extended_fit_percent},
-                  {"parameters", parametersOf(found.final_fit->model)},
+                  {"parameters", jsonOf(found.final_fit->model)},
                   {"fitted_to_all_samples", found.final_fit->all_samples},
                   {"stddevs", standardDeviations(*found.final_fit)}};
     addNumbers(found.final_fit->model, extended);

@@ -65,12 +65,21 @@ def test_stubs_are_the_classes():
     assert shm.effects()
     stubs = {node.name: {part.target.id if isinstance(part, ast.AnnAssign) else part.name for part in node.body}
              for node in ast.parse(STUB.read_text()).body if isinstance(node, ast.ClassDef)}
-    inner = {"EffectLibrary", "Keywords", "Readings", "StrutMonitor", "VehicleMonitor", "ModelNumber"}
+    inner = {"EffectLibrary", "Keywords", "UnusableList", "Readings", "StrutMonitor", "VehicleMonitor", "ModelNumber"}
     for name, cls in inspect.getmembers(_core, inspect.isclass):
         if name in inner - set(stubs):
             continue
         assert {part for part in stubs.pop(name) if not part.startswith("_")} == public(cls), name
     assert stubs == {}
+
+
+def test_help_tells_what_an_attribute_is():
+    """The texts of the stubs, with units."""
+    assert shm.effects()
+    assert vars(_core.StrutEstimate)["delay_stddev"].__doc__ == "[s]"
+    assert "stamped late" in vars(_core.StrutEstimate)["delay"].__doc__
+    assert "[m/s^2]" in vars(_core.Comparison)["noise_floor"].__doc__
+    assert vars(_core.TimeBins)["drive"].__doc__ == "which of the drives, from 0"
 
 
 def test_stubs_are_installed_with_the_marker():

@@ -191,9 +191,9 @@ TEST(CompareModel, SeveralDrivesAreKeptApart) {
   const Comparison comparison = compareModel({&first, &second}, kRough);
   ASSERT_TRUE(comparison);
   ASSERT_EQ(comparison.segments.size(), 2u);
-  EXPECT_EQ(comparison.segments[1].record, 1u);
-  EXPECT_EQ(comparison.views.time.front().record, 0u);
-  EXPECT_EQ(comparison.views.time.back().record, 1u);
+  EXPECT_EQ(comparison.segments[1].drive, 1u);
+  EXPECT_EQ(comparison.views.time.front().drive, 0u);
+  EXPECT_EQ(comparison.views.time.back().drive, 1u);
   EXPECT_EQ(comparison.views.time.back().to, comparison.segments[1].time(comparison.segments[1].size()));
 }
 

@@ -240,6 +240,30 @@ TEST(BlocksOfAStrut, FollowTheBounceWithTheirLength) {
   }
 }
 
+TEST(BlocksOfAStrut, KnowTheDriveByTheBlocksThatAreMostOfItThoughTheirLengthChangesAtItsEnd) {
+  NoisyDrive drive;
+  drive.rate = 128.0;
+  drive.seconds = 60.0;
+  NoisyDrive soft = drive;  // bounces so slowly that blocks of twice the length follow
+  soft.b0 = 12.0;
+  soft.b1 = 0.5 * std::sqrt(soft.b0);
+  soft.seconds = 20.0;
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  feed(blocks, readingsOf(drive.sample()));
+  const double first_length = blocks.length();
+  const std::optional<TopEstimate> before = blocks.overTheDrive();
+  for (const VehicleReading& reading : readingsOf(soft.sample(), drive.seconds)) {
+    blocks.push(reading);
+    if (blocks.length() != first_length) break;
+  }
+  ASSERT_NE(blocks.length(), first_length);
+  const std::optional<TopEstimate> after = blocks.overTheDrive();
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(after->length, first_length);
+  EXPECT_GE(after->blocks, before->blocks);
+  EXPECT_NEAR(after->theta[1] / drive.b0, 1.0, 0.1);
+}
+
 TEST(BlocksOfAStrut, NeedNeitherCommonNorEvenStampsOfTheSensors) {
   const double b1 = 4.2, b0 = 52.0;
   Exponentials wheel;

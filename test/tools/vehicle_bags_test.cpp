@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/vehicle_file.h"
+#include "ros/vehicle_options.h"
 #include "suspension_health_monitor/internal/signal/motion_filter.h"
 #include "tools/command.h"
 #include "tools/recorded_drives.h"

@@ -67,7 +67,7 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
       motion.emplace_back();
       if (!runFree(model, source, initial[segments.size()], predicted, &motion.back())) return std::nullopt;
       segments.push_back(makeSegment(model, source, motion.back()));
-      segments.back().record = r;
+      segments.back().drive = r;
       segments.back().predicted = std::move(predicted);
     }
   const double mean = meanOf(residualsOf(segments));

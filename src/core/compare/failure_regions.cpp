@@ -66,7 +66,7 @@ void FailureFinder::findInTime(std::size_t first, std::size_t last) {
                                       views_.time.begin() + static_cast<std::ptrdiff_t>(last));
   for (const BinRange& range : test_.noisy(bins, kContrastInTime)) {
     FailureRegion region = regionOf(FailureView::kTime, range, bins[range.first].from, bins[range.last - 1].to);
-    region.record = views_.time[first].record;
+    region.drive = views_.time[first].drive;
     found_.push_back(region);
   }
 }
@@ -101,7 +101,7 @@ bool FailureFinder::findDrift(std::size_t first, std::size_t last) {
     if (t <= largest || std::abs(change) <= kWorthATrend * whole) return;
     largest = t;
     found = regionOf(FailureView::kTime, range, views_.time[first].from, views_.time[last - 1].to);
-    found.record = views_.time[first].record;
+    found.drive = views_.time[first].drive;
     found.drift = drift;
     found.first_third = begin.mean() / whole;
     found.last_third = end.mean() / whole;
@@ -227,7 +227,7 @@ FailureRegion FailureFinder::conclude() const {
 std::vector<FailureRegion> FailureFinder::find() {
   findOffset();
   for (std::size_t first = 0, i = 1; i <= views_.time.size(); ++i)
-    if (i == views_.time.size() || views_.time[i].record != views_.time[first].record) {
+    if (i == views_.time.size() || views_.time[i].drive != views_.time[first].drive) {
       findInTime(first, i);
       first = i;
     }

@@ -103,7 +103,7 @@ struct DriveSpan {
 std::vector<DriveSpan> spansOf(const std::vector<ComparedSegment>& segments) {
   std::vector<DriveSpan> spans;
   for (std::size_t s = 0; s < segments.size(); ++s) {
-    if (s == 0 || segments[s].record != segments[s - 1].record) spans.push_back({segments[s].start, 0.0, s, s});
+    if (s == 0 || segments[s].drive != segments[s - 1].drive) spans.push_back({segments[s].start, 0.0, s, s});
     spans.back().to = segments[s].time(segments[s].size());
     spans.back().last = s + 1;
   }
@@ -140,7 +140,7 @@ std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<C
       }
     for (std::size_t i = 0; i < count; ++i) {
       TimeBin& bin = bins.emplace_back();
-      bin.record = segments[span.first].record;
+      bin.drive = segments[span.first].drive;
       bin.from = span.from + (span.to - span.from) * static_cast<double>(i) / static_cast<double>(count);
       bin.to = span.from + (span.to - span.from) * static_cast<double>(i + 1) / static_cast<double>(count);
       sums[i].fill(series.residual_memory, bin);

@@ -25,6 +25,7 @@ bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == 
 
 SeparatedVehicle separateVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                  const std::optional<double>& sample_period, const KnownModels& models) {
+  if (isOneStrut(names)) return {{}, {drivesOfOne(drives)}, {}};
   const Separator separator(drives, names, sample_period, models);
   SeparatedVehicle separated{separator.coupling(), {}, separator.models()};
   if (separated.coupling) separated.struts = separator.separate();

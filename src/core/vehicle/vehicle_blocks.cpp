@@ -46,8 +46,8 @@ VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions&
 
 void VehicleBlocks::begin(double length) {
   const BlockBand band(length, period_);
-  std::vector<BlockEstimator> before;
-  before.swap(estimators_);
+  OfLength before{length_, std::move(estimators_)};
+  estimators_.clear();
   length_ = length;
   modulation_ = Modulation(band);
   spectra_.emplace(band, vehicle_, effects_);
@@ -57,8 +57,10 @@ void VehicleBlocks::begin(double length) {
   for (SlidingFriction& each : friction_) each.setStrut(kUsualDamping * bounce, bounce * bounce, 0.0);
   for (std::size_t i = 0; i < size(); ++i) {
     estimators_.emplace_back(band, columns_, options_);
-    if (!before.empty() && before[i].hasTheta()) estimators_[i].begin(before[i].theta(), before[i].slowPrior());
+    if (before.estimators.empty() || !before.estimators[i].hasTheta()) continue;
+    estimators_[i].begin(before.estimators[i].theta(), before.estimators[i].slowPrior());
   }
+  if (before.time() > longest_.time()) longest_ = std::move(before);
   has_model_ = isAlone();
   if (!isAlone()) rows_ = model_.emplace(band, size(), vehicle_.known_forces.size()).rows();
   const auto n = static_cast<Eigen::Index>(size());

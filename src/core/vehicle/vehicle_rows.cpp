@@ -7,13 +7,16 @@
 namespace suspension_health_monitor {
 
 std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
-  if (!has_model_) return std::nullopt;
-  const std::optional<WindowEstimate> of_drive = estimators_[strut].overTheDrive();
-  const auto& all = estimators_[strut].ofAllBlocks();
+  // Blocks of another length before may be those of most of the drive.
+  const bool is_earlier = longest_.time() > OfLength::time(length_, estimators_);
+  if (!has_model_ && !is_earlier) return std::nullopt;
+  BlockEstimator& estimator = (is_earlier ? longest_.estimators : estimators_)[strut];
+  const std::optional<WindowEstimate> of_drive = estimator.overTheDrive();
+  const auto& all = estimator.ofAllBlocks();
   if (!of_drive || (!all && !isAlone())) return std::nullopt;
   TopEstimate result = estimates_[strut];
   static_cast<WindowEstimate&>(result) = *of_drive;
-  result.length = length_;
+  result.length = is_earlier ? longest_.length : length_;
   if (isAlone()) return result;
   // Noise of wheels that move alike draws every block the same way: more blocks do not help.
   result.alike = std::max(result.alike, all->alike);

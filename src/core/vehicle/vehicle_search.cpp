@@ -157,6 +157,14 @@ VehicleDiagnosis VehicleSearch::run(const std::vector<std::string>& strut_names)
 VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
                                  const std::vector<DiagnoseOptions>& options, const KnownModels& models) {
   std::vector<DiagnoseOptions> by_strut = optionsByStrut(options, strut_names.size());
+  if (isOneStrut(strut_names)) {
+    if (!models.empty()) by_strut.front().model = models.front();
+    VehicleDiagnosis one{{}, {}, {drivesOfOne(drives)}, {}, {}};
+    one.struts = {diagnose(one.drives.front(), by_strut.front())};
+    one.verdict = one.struts.front().verdict;
+    one.summary = one.struts.front().summary;
+    return one;
+  }
   Separator separator(drives, strut_names, samplePeriodOf(options), models);
   if (separator.coupling()) return VehicleSearch(std::move(separator), std::move(by_strut), models).run(strut_names);
   VehicleDiagnosis nothing;

@@ -89,7 +89,7 @@ FailureSentences::FailureSentences(const ResidualViews& views, double noise_floo
       acceleration_(ReadableUnit::plain(views.rms, "m/s^2")),
       time_(ReadableUnit::plain(views.time.back().to, "s")),
       frequency_(ReadableUnit::plain(views.spectrum ? views.spectrum->frequency.back() : 1.0, "Hz")),
-      several_drives_(views.time.back().record > 0),
+      several_drives_(views.time.back().drive > 0),
       noise_floor_(noise_floor),
       coherence_threshold_(views.spectrum ? views.spectrum->coherence_threshold : 1.0) {}
 
@@ -119,7 +119,7 @@ std::string FailureSentences::push(double mean) const {
 }
 
 std::string FailureSentences::inDrive(const FailureRegion& region) const {
-  return several_drives_ ? " of drive " + std::to_string(region.record + 1) : "";
+  return several_drives_ ? " of drive " + std::to_string(region.drive + 1) : "";
 }
 
 void FailureSentences::along(const Places& places, const ReadableUnit& unit, const Ends& ends,

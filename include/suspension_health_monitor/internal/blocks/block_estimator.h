@@ -48,6 +48,7 @@ class BlockEstimator {
   StrutBlock& block(int age) { return ring_[placeOf(age)]; }
   const StrutBlock& block(int age) const { return ring_[placeOf(age)]; }
   int count() const { return count_; }  ///< blocks kept
+  int numBlocks() const { return drive_.blocks() + count_; }  ///< since the start
   void linearise(StrutBlock& block) { equations_.linearise(theta_, block); }
 
   /// What all blocks told of slow parameters is not believed: it was told without the wheels' noise.

@@ -92,6 +92,16 @@ class VehicleBlocks {
   void restart();
 
  private:
+  /// The estimators of blocks of one length.
+  struct OfLength {
+    double length = 0.0;  ///< [s]
+    std::vector<BlockEstimator> estimators = {};
+
+    static double time(double length, const std::vector<BlockEstimator>& estimators) {
+      return estimators.empty() ? 0.0 : length / 2.0 * estimators.front().numBlocks();
+    }
+    double time() const { return time(length, estimators); }  ///< that the blocks cover [s]
+  };
   void begin(double length);
   std::size_t size() const { return vehicle_.struts.size(); }
   bool isAlone() const { return size() == 1; }
@@ -124,6 +134,7 @@ class VehicleBlocks {
   std::optional<VehicleSpectra> spectra_;
   std::optional<CoupledTops> model_;        // of two struts or more
   std::vector<BlockEstimator> estimators_;  // by strut, as all that follow
+  OfLength longest_;                        // of the lengths before the one that covered most, for overTheDrive()
   std::vector<SlidingFriction> friction_;
   std::vector<TopEstimate> estimates_;
   std::vector<bool> has_;

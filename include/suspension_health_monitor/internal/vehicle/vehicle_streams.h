@@ -39,6 +39,7 @@ struct VehicleStreams {
 
   /// @return the sensor that is a strut's body IMU: its own, or that of the body.
   std::size_t bodyImuOf(std::size_t strut) const;
+  std::size_t wheelImuOf(std::size_t strut) const { return options[channels.struts[strut].unsprung].sensor; }
 
  private:
   void addForces(const std::vector<VehicleLayout::KnownForce>& forces);

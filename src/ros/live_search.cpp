@@ -1,0 +1,135 @@
+#include "live_search.h"
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "conversions.h"
+#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "suspension_health_monitor/internal/wording/words.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+/// @param lacks  what the samples lack.
+/// @throws std::runtime_error  in words for people.
+[[noreturn]] void tellLack(const VehicleDrive& drive, const std::string& lacks) {
+  const std::vector<CornerSample>& samples = drive.struts.front().samples;
+  throw std::runtime_error(formatted("the last %.3g s ", toSeconds(samples.back().stamp - samples.front().stamp)) +
+                           lacks);
+}
+
+void addExtended(const Diagnosis& found, DiagnoseResponse& response) {
+  const FittedModel& fit = *found.final_fit;
+  response.extended_held_out_rmse = found.extended->held_out_rmse;
+  response.extended_fit_percent = found.extended_fit_percent;
+  response.damping_to_mass = fit.model.damping_to_mass;
+  response.stiffness_to_mass = fit.model.stiffness_to_mass;
+  auto stddev = fit.stddev.begin();
+  for (const ModelNumber& number : numbersOf(fit.model)) {
+    const double uncertainty = *stddev++;
+    if (number.kind == ModelNumber::Kind::kCoefficient) {
+      response.coefficient_names.push_back(number.name);
+      response.coefficients.push_back(number.value);
+      response.coefficient_stddevs.push_back(uncertainty);
+    } else if (number.kind == ModelNumber::Kind::kShape) {
+      response.shape_names.push_back(number.name);
+      response.shapes.push_back(number.value);
+    }
+  }
+}
+
+/// The answer of ~diagnose: the whole result as plain fields.
+DiagnoseResponse toResponse(const Diagnosis& found) {
+  DiagnoseResponse response = withoutFigures();
+  response.success = true;
+  response.message = found.remainder.empty() ? found.summary : found.summary + ' ' + found.remainder;
+  response.verdict = nameOf(found.verdict);
+  response.base_held_out_rmse = found.base.held_out_rmse;
+  response.base_fit_percent = found.base_fit_percent;
+  response.noise_floor = found.noise_floor;
+  response.structured_share = found.structured_share;
+  response.surface_share = found.surface_share;
+  for (const RankedModel& ranked : found.ranking) {
+    response.ranked_effects.push_back(join(ranked.effects, " + "));
+    response.ranked_held_out_rmse.push_back(ranked.held_out_rmse);
+    response.ranked_error_removed_percent.push_back(ranked.error_removed_percent);
+    response.ranked_significant.push_back(ranked.significant);
+  }
+  response.selected = found.selected;
+  for (const std::vector<std::string>& group : found.indistinguishable)
+    response.indistinguishable.push_back(join(group));
+  response.suggested_drive = found.suggested_drive;
+  if (found.extended) addExtended(found, response);
+  return response;
+}
+
+DiagnoseVehicleResponse toResponse(const VehicleDiagnosis& found, const std::vector<std::string>& struts) {
+  DiagnoseVehicleResponse response;
+  response.success = true;
+  response.message = found.summary;
+  response.verdict = nameOf(found.verdict);
+  response.strut = struts;
+  for (std::size_t i = 0; i < found.struts.size(); ++i) {
+    const Diagnosis& strut = found.struts[i];
+    response.verdicts.emplace_back(strut ? nameOf(found.verdictOn(i)) : "");
+    response.selected.push_back(join(found.selected(i), ", "));
+    response.summaries.push_back(strut ? strut.summary : "The drives " + strut.reason + ".");
+  }
+  return response;
+}
+
+/// @throws std::runtime_error  in words for people, if there is nothing to be said of this strut.
+DiagnoseResponse toResponse(const VehicleDiagnosis& found, std::size_t strut, const SearchTask& task) {
+  const Diagnosis& its = found.struts[strut];
+  if (!its) tellLack(task.drive, its.reason + ": drive on");
+  DiagnoseResponse response = toResponse(its);
+  response.verdict = nameOf(found.verdictOn(strut));
+  response.selected = found.selected(strut);
+  return response;
+}
+
+/// @param answer  what there is to be said of what was found.
+template <class Service, class Answer>
+typename DiagnoseService<Service>::Search searchAll(SearchTask task, TakeDiagnosis take, const Answer& answer) {
+  return [task = std::move(task), take = std::move(take), answer](const SearchProgress& progress) mutable {
+    task.options.progress = progress;
+    const auto found =
+        std::make_shared<const VehicleDiagnosis>(diagnoseVehicle({task.drive}, task.struts, {task.options}));
+    if (!*found) tellLack(task.drive, found->coupling.reason);
+    return typename DiagnoseService<Service>::Outcome{answer(*found, task), [take, found] { take(*found); }};
+  };
+}
+
+}  // namespace
+
+DiagnoseResponse withoutFigures() {
+  DiagnoseResponse response;
+  response.base_held_out_rmse = response.base_fit_percent = response.noise_floor = kUnknown;
+  response.structured_share = response.surface_share = kUnknown;
+  response.extended_held_out_rmse = response.extended_fit_percent = kUnknown;
+  response.damping_to_mass = response.stiffness_to_mass = kUnknown;
+  return response;
+}
+
+double searchSpan(double window, double kept) {
+  if (!(window >= 0.0 && window <= kept))
+    refuse("window", window, "s", "in [0, " + numberText(kept) + "] (diagnose/window)");
+  return window > 0.0 ? window : kept;
+}
+
+DiagnoseService<DiagnoseVehicle>::Search searchOf(SearchTask task, TakeDiagnosis take) {
+  return searchAll<DiagnoseVehicle>(
+      std::move(task), std::move(take),
+      [](const VehicleDiagnosis& found, const SearchTask& its) { return toResponse(found, its.struts); });
+}
+
+DiagnoseService<Diagnose>::Search searchOf(SearchTask task, std::size_t strut, TakeDiagnosis take) {
+  return searchAll<Diagnose>(std::move(task), std::move(take),
+                             [strut](const VehicleDiagnosis& found, const SearchTask& its) {
+                               return toResponse(found, strut, its);
+                             });
+}
+
+}  // namespace suspension_health_monitor

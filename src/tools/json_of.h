@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <boost/hana.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "result_fields.h"
+
+namespace suspension_health_monitor {
+
+/// @return a result by the names of its fields, of matrices the rows; what it does not have is left out.
+template <class Value>
+nlohmann::json jsonOf(const Value& value);
+
+template <class Item>
+nlohmann::json jsonOf(const std::vector<Item>& items) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Item& item : items) list.push_back(jsonOf(item));
+  return list;
+}
+
+template <class Value>
+void addTo(nlohmann::json& into, const char* name, const Value& value) {
+  into[name] = jsonOf(value);
+}
+
+template <class Value>
+void addTo(nlohmann::json& into, const char* name, const std::optional<Value>& value) {
+  if (value) addTo(into, name, *value);
+}
+
+template <class Value>
+nlohmann::json jsonOf(const Value& value) {
+  if constexpr (boost::hana::Struct<Value>::value) {
+    nlohmann::json into;
+    boost::hana::for_each(boost::hana::accessors<Value>(), [&](const auto& field) {
+      addTo(into, boost::hana::to<const char*>(boost::hana::first(field)), boost::hana::second(field)(value));
+    });
+    return into;
+  } else if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (Eigen::Index i = 0; i < value.rows(); ++i) {
+      rows.push_back(nlohmann::json::array());
+      for (Eigen::Index j = 0; j < value.cols(); ++j) rows.back().push_back(value(i, j));
+    }
+    return rows;
+  } else {
+    return value;
+  }
+}
+
+}  // namespace suspension_health_monitor
