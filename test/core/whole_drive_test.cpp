@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_drive.h"
 

@@ -41,9 +41,19 @@ const ScenarioVehicle& findVehicle(const SimulationOptions& options) {
   return *std::find_if(std::begin(kVehicles), std::end(kVehicles), [&](const auto& v) { return v.name == name; });
 }
 
-Ramp dampingRamp(const SimulationOptions& options, double first) {
-  const double usual = options.scenario == "iso_road" ? 1.0 : kPaperDampingLeft;
-  return {first, first * options.damping_end_fraction.value_or(usual), options.ramp_start, options.ramp_end};
+VehicleStrut strutOf(const QuarterCar& car, const SimulationOptions& options) {
+  VehicleStrut strut;
+  strut.damping = car.damping;
+  strut.stiffness = car.stiffness;
+  strut.wheel_mass = car.unsprung_mass;
+  strut.tyre_stiffness = car.tyre_stiffness.value_or(0.0);
+  strut.damping_end_fraction =
+      options.damping_end_fraction.value_or(options.scenario == "iso_road" ? 1.0 : kPaperDampingLeft);
+  strut.ramp_start = options.ramp_start;
+  strut.ramp_end = options.ramp_end;
+  if (options.scenario == "paper_saturation") strut.end_stops = kPaperStops;
+  strut.hidden = options.hidden;
+  return strut;
 }
 
 Road makeRoad(const SimulationOptions& options, const ScenarioVehicle& vehicle) {
@@ -94,10 +104,9 @@ Scenario makeScenario(const SimulationOptions& options) {
   result.vehicle = vehicle.car;
   if (options.damping_to_mass) result.vehicle.damping = *options.damping_to_mass * vehicle.car.sprung_mass;
   if (options.stiffness_to_mass) result.vehicle.stiffness = *options.stiffness_to_mass * vehicle.car.sprung_mass;
-  result.strut = {dampingRamp(options, result.vehicle.dampingToMass()), result.vehicle.stiffnessToMass(), std::nullopt,
-                  options.hidden};
+  result.driven.mass = vehicle.car.sprung_mass;
+  result.driven.struts = {strutOf(result.vehicle, options)};
   result.road = makeRoad(options, vehicle);
-  if (options.scenario == "paper_saturation") result.strut.end_stops = kPaperStops;
   if (options.scenario == "paper_outliers") {
     result.zero_readings.assign(std::begin(kPaperLosses), std::end(kPaperLosses));
   }

@@ -42,6 +42,10 @@ void validate(const KnownForce& force, const Vehicle& vehicle) {
 
 }  // namespace
 
+double EndStops::forcePerMass(double travel) const {
+  return stiffness_to_mass * (std::max(0.0, travel - gap) + std::min(0.0, travel + gap));
+}
+
 double VehicleStrut::shareAt(double t, double end_fraction) const {
   if (t < ramp_start) return 1.0;
   if (t >= ramp_end) return end_fraction;

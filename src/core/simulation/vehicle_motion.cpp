@@ -6,6 +6,7 @@
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <cmath>
 
 namespace suspension_health_monitor {
 namespace {
@@ -22,6 +23,18 @@ std::vector<ActiveEffect> hiddenIn(const Vehicle& vehicle) {
 /// How high the top of a strut is, or how fast it rises, per unit of heave, pitch and roll.
 Eigen::RowVector3d liftAt(double x, double y) { return {1.0, -x, y}; }
 Eigen::RowVector3d liftAt(const VehicleStrut& strut) { return liftAt(strut.x, strut.y); }
+
+double longestStep(const Vehicle& vehicle) {
+  double fastest = 0.0;  // square of an angular frequency: the body on its struts, a wheel between strut and tyre
+  for (const VehicleStrut& strut : vehicle.struts) {
+    const double mobility = vehicle.mobility(strut, strut);
+    const double stops = strut.end_stops ? strut.end_stops->stiffness_to_mass : 0.0,
+                 stiffness = strut.stiffness + stops / mobility;
+    const double of_wheel = strut.isRigid() ? 0.0 : (stiffness + strut.tyre_stiffness) / strut.wheel_mass;
+    fastest = std::max(fastest, stiffness * mobility + of_wheel);
+  }
+  return 0.1 / std::sqrt(fastest);
+}
 
 VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
   const std::size_t n = vehicle.struts.size();
@@ -52,10 +65,12 @@ VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, st
       known_forces_(std::move(known_forces)),
       inverse_inertia_(1.0 / vehicle.mass, vehicle.pitches() ? 1.0 / vehicle.pitch_inertia : 0.0,
                        vehicle.rolls() ? 1.0 / vehicle.roll_inertia : 0.0),
-      guard_(hiddenIn(vehicle), kLongestStep) {
+      longest_step_(longestStep(vehicle)),
+      guard_(hiddenIn(vehicle), longest_step_) {
   validate(vehicle_);
   for (const VehicleStrut& strut : vehicle_.struts) own_mobility_.push_back(vehicle_.mobility(strut, strut));
   truth_.struts.resize(vehicle_.struts.size());
+  ground_.resize(vehicle_.struts.size());
   truth_.forces.resize(vehicle_.struts.size());
   truth_.known_forces.resize(vehicle_.known_forces.size());
   state_ = restOn(vehicle_, roads_);
@@ -65,8 +80,8 @@ VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, st
 void VehicleMotion::advance(double t) {
   namespace odeint = boost::numeric::odeint;
   if (!(t > time_)) return;
-  const auto stepper = odeint::make_controlled(IntegrationGuard::kTolerance, IntegrationGuard::kTolerance, kLongestStep,
-                                               odeint::runge_kutta_dopri5<State>());
+  const auto stepper = odeint::make_controlled(IntegrationGuard::kTolerance, IntegrationGuard::kTolerance,
+                                               longest_step_, odeint::runge_kutta_dopri5<State>());
   const auto system = [this](const State& state, State& derivative, double now) {
     guard_.countEvaluation(now);
     evaluate(state, now, derivative);
@@ -76,7 +91,7 @@ void VehicleMotion::advance(double t) {
     for (std::size_t i = 0; i < kBodyRates; ++i) guard_.checkMotion(state[i], state[kBodyRates + i], now);
     for (std::size_t i = kWheels; i < kWheels + n; ++i) guard_.checkMotion(state[i], state[i + n], now);
   };
-  odeint::integrate_adaptive(stepper, system, state_, time_, t, std::min(kLongestStep, t - time_), check);
+  odeint::integrate_adaptive(stepper, system, state_, time_, t, std::min(longest_step_, t - time_), check);
   time_ = t;
 }
 
@@ -106,11 +121,16 @@ void VehicleMotion::findForces(const State& state, double t) {
   for (std::size_t i = 0; i < n; ++i) {
     const VehicleStrut& strut = vehicle_.struts[i];
     DriveTruth& truth = truth_.struts[i];
-    truth.travel = state[kWheels + i] - liftAt(strut) * truth_.body;
-    truth.travel_rate = state[kWheels + n + i] - liftAt(strut) * truth_.body_rate;
+    const RoadPoint& road = ground_[i] = roads_[i](t);
+    truth.road_height = road.height;
+    truth.road_acceleration = road.acceleration;
+    const bool is_rigid = strut.isRigid();
+    truth.travel = (is_rigid ? road.height : state[kWheels + i]) - liftAt(strut) * truth_.body;
+    truth.travel_rate = (is_rigid ? road.rate : state[kWheels + n + i]) - liftAt(strut) * truth_.body_rate;
     truth.damping_to_mass = own_mobility_[i] * strut.damping * strut.shareAt(t, strut.damping_end_fraction);
     truth.stiffness_to_mass = own_mobility_[i] * strut.stiffness * strut.shareAt(t, strut.stiffness_end_fraction);
     double per_mass = truth.damping_to_mass * truth.travel_rate + truth.stiffness_to_mass * truth.travel;
+    if (strut.end_stops) per_mass += strut.end_stops->forcePerMass(truth.travel);
     for (const ActiveEffect& active : strut.hidden) {
       per_mass += active.coefficient * active.effect.force({truth.travel, truth.travel_rate, t, {memory[0], memory[1]}},
                                                            active.shapes.data());
@@ -143,15 +163,13 @@ void VehicleMotion::accelerateWheels(const State& state, double t, State& deriva
   for (std::size_t i = 0; i < n; ++i) {
     const VehicleStrut& strut = vehicle_.struts[i];
     DriveTruth& truth = truth_.struts[i];
-    const RoadPoint road = roads_[i](t);
-    const double height = state[kWheels + i], rate = state[kWheels + n + i];
-    const double tyre = strut.tyre_stiffness * (road.height - height) + strut.tyre_damping * (road.rate - rate);
-    truth.road_height = road.height;
-    truth.road_acceleration = road.acceleration;
     truth.sprung_acceleration = liftAt(strut) * truth_.body_acceleration;
-    truth.unsprung_acceleration = (tyre - truth_.forces[i]) / strut.wheel_mass;
-    derivative[kWheels + i] = rate;
-    derivative[kWheels + n + i] = truth.unsprung_acceleration;
+    const double height = state[kWheels + i], rate = state[kWheels + n + i];
+    const RoadPoint& road = ground_[i];
+    const double tyre = strut.tyre_stiffness * (road.height - height) + strut.tyre_damping * (road.rate - rate);
+    truth.unsprung_acceleration = strut.isRigid() ? road.acceleration : (tyre - truth_.forces[i]) / strut.wheel_mass;
+    derivative[kWheels + i] = strut.isRigid() ? 0.0 : rate;
+    derivative[kWheels + n + i] = strut.isRigid() ? 0.0 : truth.unsprung_acceleration;
     for (const ActiveEffect& active : strut.hidden) {
       const Memory now(state[memory], state[memory + 1]);
       const StrutMotion motion{truth.travel, truth.travel_rate, t, now, truth.sprung_acceleration};

@@ -1,27 +1,14 @@
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/simulation/body_sway.h"
-#include "suspension_health_monitor/internal/simulation/integration_guard.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
+#include "suspension_health_monitor/internal/simulation/vehicle_motion.h"
 
 namespace suspension_health_monitor {
-
-/// What the simulator knows and no sensor tells, at one instant.
-struct DriveTruth {
-  double damping_to_mass = 0.0;        ///< b1 [1/s]
-  double stiffness_to_mass = 0.0;      ///< b0 [1/s^2]
-  double travel = 0.0;                 ///< d = w - z [m], compression positive
-  double travel_rate = 0.0;            ///< v = w' - z' [m/s]
-  double road_height = 0.0;            ///< mu [m]
-  double sprung_acceleration = 0.0;    ///< z'' without noise [m/s^2]
-  double unsprung_acceleration = 0.0;  ///< w'' without noise [m/s^2]
-  double road_acceleration = 0.0;      ///< mu'' without noise [m/s^2]
-};
 
 /// One instant of a simulated drive.
 struct DriveSample {
@@ -36,10 +23,8 @@ struct DriveSample {
 /// Drives a quarter car, equations (1)-(2) or with a rigid wheel (27), over a road and measures its two accelerations,
 /// and that of the road under the wheel.
 ///
-/// The body and a wheel on a tyre start at rest relative to the road, travel 0.
-/// Integration: Dormand-Prince 5(4) with error control, 1e-10 absolute (m, m/s) and 1e-10 relative per step; steps end
-/// on the samples and are at most 1/10 of the fastest time constant, stops included, so that none jumps over a contact.
-/// Same options, same samples. Its formulas are its own: estimation shares no code with it but the sign conventions.
+/// The body and a wheel on a tyre start at rest relative to the road, travel 0 (VehicleMotion).
+/// Same options, same samples.
 class DriveSimulator {
  public:
   /// @throws std::invalid_argument  as validate(SimulationOptions).
@@ -51,29 +36,12 @@ class DriveSimulator {
   std::optional<DriveSample> next();
 
  private:
-  // z, z' and, of a wheel on a tyre, w, w'; then the memories of hidden effects. Places that are not needed stay 0.
-  using State = std::array<double, 4 + 2 * kMostHiddenEffects>;
-
-  struct Motion {
-    DriveTruth truth;
-    State derivative;
-  };
-
-  /// The vehicle at one time, from where it is integrated on.
-  struct Course {
-    State state{};
-    double time = 0.0;  // [s]
-  };
-
   struct ScheduledSensor {
     Accelerometer accelerometer;
     SensorSchedule schedule;
   };
 
-  Motion motionAt(const State& state, double t);
-  Motion motionAt(const Course& course) { return motionAt(course.state, course.time); }
-  void integrate(Course& course, double to);
-  double readBody(const Sway& sway);
+  double readBody(double t, const Sway& sway);
 
   Scenario scenario_;
   ScheduledSensor sprung_, unsprung_;
@@ -81,9 +49,7 @@ class DriveSimulator {
   BodySway sway_;
   SwaySensor sway_sensor_;
   SensorFaults faults_;
-  Course now_, delayed_;  // delayed: as the body's IMU sees it, faults_.delay ago
-  double max_step_;       // [s]
-  IntegrationGuard guard_;
+  VehicleMotion now_, delayed_;  // delayed: as the body's IMU sees it, faults_.delay ago
 };
 
 }  // namespace suspension_health_monitor

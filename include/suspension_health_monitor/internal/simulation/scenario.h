@@ -7,9 +7,12 @@
 #include "suspension_health_monitor/internal/model/quarter_car.h"
 #include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/simulation/road.h"
-#include "suspension_health_monitor/internal/simulation/strut.h"
+#include "suspension_health_monitor/internal/simulation/vehicle.h"
 
 namespace suspension_health_monitor {
+
+/// As many hidden effects a strut can have.
+inline constexpr std::size_t kMostHiddenEffects = 4;
 
 /// What a simulated drive is like. The meaning of what users may set is in kSimulationFields.
 struct SimulationOptions {
@@ -107,10 +110,10 @@ struct TimeWindow {
   bool contains(double t) const { return t >= first && t <= last; }
 };
 
-/// What the options amount to: the vehicle and its strut, the road, the faults of the sensors' wiring.
+/// What the options amount to: the vehicle, the road, the faults of the sensors' wiring.
 struct Scenario {
   QuarterCar vehicle;  ///< at the start of the drive
-  Strut strut;
+  Vehicle driven;      ///< it with its ramp, end stops and hidden effects
   Road road;
   std::vector<TimeWindow> zero_readings;  ///< both accelerations read 0
 };

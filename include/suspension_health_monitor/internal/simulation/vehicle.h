@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,16 @@
 
 namespace suspension_health_monitor {
 
+/// End stops of a strut: springs that act only beyond a travel of +-gap.
+struct EndStops {
+  double gap;                ///< [m]
+  double stiffness_to_mass;  ///< [1/s^2]
+
+  /// @param travel  d [m], compression positive.
+  /// @return force on the body per unit sprung mass [m/s^2], upwards in compression.
+  double forcePerMass(double travel) const;
+};
+
 /// A strut of a simulated vehicle with its wheel and tyre. The meaning of what users may set is in kVehicleStrutFields.
 struct VehicleStrut {
   std::string name;
@@ -18,13 +29,15 @@ struct VehicleStrut {
   double damping = 0.0;              ///< [N s/m]
   double stiffness = 0.0;            ///< [N/m]
   double wheel_mass = 0.0;           ///< [kg]
-  double tyre_stiffness = 0.0;       ///< [N/m]
+  double tyre_stiffness = 0.0;       ///< [N/m]; 0: the wheel is rigid and has no mass of its own
   double tyre_damping = 0.0;         ///< [N s/m]
 
   double damping_end_fraction = 1.0;
   double stiffness_end_fraction = 1.0;
   double ramp_start = 0.0;  ///< when damping and stiffness begin to change [s]
   double ramp_end = 0.0;    ///< when they have changed [s]; at once if it is ramp_start
+
+  std::optional<EndStops> end_stops = {};
 
   double sprung_offset = 0.0;    ///< [m/s^2]
   double unsprung_offset = 0.0;  ///< [m/s^2]
@@ -34,6 +47,7 @@ struct VehicleStrut {
 
   /// @return what is left at time t of a number that goes to its share `end_fraction`.
   double shareAt(double t, double end_fraction) const;
+  bool isRigid() const { return tyre_stiffness == 0.0; }
 };
 
 /// A spring that resists the difference of two struts' travels: + stiffness (d_first - d_second) on the body at the
@@ -108,8 +122,8 @@ inline constexpr OptionField<VehicleStrut> kVehicleStrutFields[] = {
     {"struts/NAME", "damping", "N s/m", "of the damper, c", &VehicleStrut::damping, 0.0, 1e9},
     {"struts/NAME", "stiffness", "N/m", "of the spring, k", &VehicleStrut::stiffness, 1e-6, 1e12},
     {"struts/NAME", "wheel_mass", "kg", "of wheel and carrier", &VehicleStrut::wheel_mass, 1e-6, 1e9},
-    {"struts/NAME", "tyre_stiffness", "N/m", "of the tyre, which never lifts off", &VehicleStrut::tyre_stiffness, 1e-6,
-     1e12},
+    {"struts/NAME", "tyre_stiffness", "N/m", "of the tyre, which never lifts off; 0: the wheel is rigid",
+     &VehicleStrut::tyre_stiffness, 0.0, 1e12},
     {"struts/NAME", "z", "m", "top of the strut, above the centre of gravity", &VehicleStrut::z, -1e3, 1e3},
     {"struts/NAME", "tyre_damping", "N s/m", "of the tyre", &VehicleStrut::tyre_damping, 0.0, 1e9},
     {"struts/NAME", "damping_end_fraction", "-", "share of the damping that is left from ramp_end on",

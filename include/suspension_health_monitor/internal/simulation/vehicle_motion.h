@@ -4,12 +4,23 @@
 #include <functional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 #include "suspension_health_monitor/internal/simulation/integration_guard.h"
 #include "suspension_health_monitor/internal/simulation/road.h"
 #include "suspension_health_monitor/internal/simulation/vehicle.h"
 
 namespace suspension_health_monitor {
+
+/// What the simulator knows and no sensor tells, at one instant.
+struct DriveTruth {
+  double damping_to_mass = 0.0;        ///< b1 [1/s]
+  double stiffness_to_mass = 0.0;      ///< b0 [1/s^2]
+  double travel = 0.0;                 ///< d = w - z [m], compression positive
+  double travel_rate = 0.0;            ///< v = w' - z' [m/s]
+  double road_height = 0.0;            ///< mu [m]
+  double sprung_acceleration = 0.0;    ///< z'' without noise [m/s^2]
+  double unsprung_acceleration = 0.0;  ///< w'' without noise [m/s^2]
+  double road_acceleration = 0.0;      ///< mu'' without noise [m/s^2]
+};
 
 /// What the simulator knows of a vehicle at one instant.
 struct VehicleTruth {
@@ -26,16 +37,15 @@ struct VehicleTruth {
 ///
 ///   M z'' = sum F_i + sum G_k,  Iyy pitch'' = -sum x F,  Ixx roll'' = sum y F
 ///   m_i w_i'' = -F_i + k_ti (mu_i - w_i) + c_ti (mu_i' - w_i')
-///   F_i = c_i(t) v_i + k_i(t) d_i + 1/a_ii sum_j c_j f_j(d_i, v_i, t, s_j) + anti-roll bars
+///   F_i = c_i(t) v_i + k_i(t) d_i + 1/a_ii (stops(d_i) + sum_j c_j f_j(d_i, v_i, t, s_j)) + anti-roll bars
 ///
-/// with the strut's top at z_i = z - x_i pitch + y_i roll. The wheels start at rest relative to the road, and the body
-/// in the plane that is nearest to them.
-/// Integration: Dormand-Prince 5(4) with error control, 1e-10 absolute (m, m/s) and relative per step, steps of at most
-/// kLongestStep. It shares nothing with estimation but the signs.
+/// with the strut's top at z_i = z - x_i pitch + y_i roll; a rigid wheel moves as the road does. The wheels start at
+/// rest relative to the road, and the body in the plane that is nearest to them. Integration: Dormand-Prince 5(4) with
+/// error control, 1e-10 absolute (m, m/s) and relative per step; steps are at most 1/10 of the fastest time constant,
+/// stops included, so that none jumps over a contact. Its formulas are its own: estimation shares no code with it but
+/// the signs.
 class VehicleMotion {
  public:
-  static constexpr double kLongestStep = 0.5e-3;  ///< [s]
-
   using State = std::vector<double>;
   using Signal = std::function<double(double t)>;
 
@@ -43,7 +53,7 @@ class VehicleMotion {
   /// @throws std::invalid_argument  as validate().
   VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, std::vector<Signal> known_forces = {});
 
-  /// Integrates up to t [s], which is not before the last one.
+  /// Integrates up to t [s]; nothing is done where that is not after the last one.
   /// @throws std::invalid_argument  naming the hidden effects, if a strut runs away or is too stiff to be integrated.
   void advance(double t);
 
@@ -61,9 +71,11 @@ class VehicleMotion {
 
   Vehicle vehicle_;
   std::vector<Road> roads_;
+  std::vector<RoadPoint> ground_;  // that roads_ have now
   std::vector<Signal> known_forces_;
   std::vector<double> own_mobility_;  // a_ii [1/kg]
   Eigen::Vector3d inverse_inertia_;   // 1/M, 1/Iyy, 1/Ixx; 0 where the body does not turn
+  double longest_step_;               // [s]
   State state_, derivative_;
   VehicleTruth truth_;
   IntegrationGuard guard_;
