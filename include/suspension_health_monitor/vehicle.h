@@ -89,7 +89,7 @@ struct SeparatedVehicle {
 
 /// @param drives  of one vehicle, each with all of its struts.
 /// @param names  of the struts, for what is said of them; a single empty one: a strut alone, whose drives stay as they
-/// are.
+/// are, without a model.
 /// @param sample_period  T [s]; nothing: the median spacing of the samples.
 /// @throws std::invalid_argument  if there is no drive or no strut, if the struts of a drive have not the same stamps
 /// and its forces not a value for each, if drives have not the same forces, or for a period that is not above 0; for

@@ -16,7 +16,7 @@ namespace suspension_health_monitor {
 /// What a live search works on.
 struct SearchTask {
   VehicleDrive drive;
-  std::vector<std::string> struts;  ///< names; a strut alone has none
+  std::vector<std::string> struts;  ///< names; that of a strut alone is empty
   DiagnoseOptions options;
 };
 

@@ -36,8 +36,7 @@ VehicleLayout layoutOfTopics(const po::variables_map& values) {
 void place(VehicleLayout& layout, ImuBags bags, const ShellOptions& options) {
   if (!layout.hasFrames() || !layout.body_imu) return;
   bags.transforms = readStaticTransforms(bags.paths);
-  bags.topics = {*layout.body_imu};
-  bags.named_by = {"body_imu"};
+  bags.topics = {{*layout.body_imu, "body_imu"}};
   std::optional<sensor_msgs::Imu> first;
   const auto take = [&](std::size_t, const sensor_msgs::Imu& imu, Stamp) {
     first = imu;
@@ -75,11 +74,10 @@ AskedVehicle readVehicle(const po::variables_map& values) {
 void findSensors(ImuBags& bags, const ShellOptions& options, VehicleLayout& layout) {
   place(layout, bags, options);
   const VehicleStreams streams(layout);
-  bags.topics = streams.topicsOfImus();
-  bags.wrench_topics = streams.topicsOfForces();
-  bags.not_needed = layout.road_imu ? 1 : 0;
-  bags.named_by.clear();
-  for (const VehicleStreams::Sensor& sensor : streams.sensors) bags.named_by.push_back(sensor.setting);
+  bags.topics.clear();
+  for (const VehicleStreams::Sensor& sensor : streams.sensors)
+    bags.topics.push_back({sensor.topic, sensor.setting, sensor.place == VehicleStreams::Place::kForce,
+                           sensor.place != VehicleStreams::Place::kRoad});
 }
 
 }  // namespace suspension_health_monitor

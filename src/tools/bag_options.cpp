@@ -119,7 +119,8 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   options.bags = readBags(values, common.shell);
   findSensors(options.bags, common.shell, vehicle.layout);
   options.bags.temperature_topics = options.settings.temperatureTopics();
-  if (vehicle.isStrutAlone()) options.bags.named_by.assign(kTopicOptions.begin(), kTopicOptions.end());
+  if (vehicle.isStrutAlone())
+    for (std::size_t i = 0; i < options.bags.topics.size(); ++i) options.bags.topics[i].named_by = kTopicOptions[i];
   options.period_measured = !common.monitor.sample_period;
   if (!options.period_measured) requireFittingPeriod(options.bags, options.period());
   return options;

@@ -30,28 +30,23 @@ using Places = std::map<std::uint32_t, std::optional<std::size_t>>;
 
 /// @param kind  of the messages, in a word.  @param place  of the topic.
 template <class Message>
-void findTopic(const BagFile& file, const std::string& topic, const std::string& named_by, const char* kind,
-               std::size_t place, Places& places) {
-  const std::vector<std::uint32_t> connections = connectionsOf<Message>(file, topic);
+void findTopic(const BagFile& file, const BagTopic& topic, const char* kind, std::size_t place, Places& places) {
+  const std::vector<std::uint32_t> connections = connectionsOf<Message>(file, topic.name);
   for (const std::uint32_t connection : connections) places[connection] = place;
   if (connections.empty())
-    throw InputError(file.path() + ": no topic " + topic + " (" + named_by + "); " + kind +
+    throw InputError(file.path() + ": no topic " + topic.name + " (" + topic.named_by + "); " + kind +
                      " topics in this bag: " + listTopics<Message>(file.connections()));
 }
 
 Places findPlaces(const BagFile& file, const ImuBags& bags) {
   Places places;
   for (const BagConnection& connection : file.connections()) places[connection.id] = std::nullopt;
-  const std::size_t num_imus = bags.topics.size();
-  for (std::size_t i = 0; i < num_imus; ++i)
-    findTopic<sensor_msgs::Imu>(file, bags.topics[i], bags.named_by[i], "Imu", i, places);
-  for (std::size_t i = 0; i < bags.wrench_topics.size(); ++i)
-    findTopic<geometry_msgs::WrenchStamped>(file, bags.wrench_topics[i], bags.named_by[num_imus + i], "WrenchStamped",
-                                            num_imus + i, places);
-  const std::size_t num_sensors = num_imus + bags.wrench_topics.size();
+  for (std::size_t i = 0; i < bags.topics.size(); ++i)
+    bags.topics[i].is_force ? findTopic<geometry_msgs::WrenchStamped>(file, bags.topics[i], "WrenchStamped", i, places)
+                            : findTopic<sensor_msgs::Imu>(file, bags.topics[i], "Imu", i, places);
   for (std::size_t i = 0; i < bags.temperature_topics.size(); ++i)
     for (const std::uint32_t connection : connectionsOf<sensor_msgs::Temperature>(file, bags.temperature_topics[i]))
-      places[connection] = num_sensors + i;
+      places[connection] = bags.topics.size() + i;
   return places;
 }
 
@@ -93,8 +88,7 @@ class Delivery {
   Delivery(const BagFile& file, const ImuBags& bags, const Range& range, const TopicSinks& take)
       : file_(file),
         places_(findPlaces(file, bags)),
-        num_imus_(bags.topics.size()),
-        num_sensors_(num_imus_ + bags.wrench_topics.size()),
+        topics_(bags.topics),
         range_(range),
         take_(take),
         gaps_(bags.gaps) {}
@@ -137,13 +131,13 @@ class Delivery {
     if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
     if (!place->second || !range_.contains(message.time)) return true;
     const std::size_t sensor = *place->second;
-    if (sensor >= num_sensors_) {
+    if (sensor >= topics_.size()) {
       if (!take_.temperature) return true;
       decode(file_, message, "", temperature_);
-      return take_.temperature(sensor - num_sensors_, temperature_, Stamp(static_cast<Stamp::rep>(message.time)));
+      return take_.temperature(sensor - topics_.size(), temperature_, Stamp(static_cast<Stamp::rep>(message.time)));
     }
-    return sensor < num_imus_ ? deliver(message, sensor, imu_, take_.imu)
-                              : deliver(message, sensor, wrench_, take_.wrench);
+    return topics_[sensor].is_force ? deliver(message, sensor, wrench_, take_.wrench)
+                                    : deliver(message, sensor, imu_, take_.imu);
   }
 
   /// @param decoded  storage for it.
@@ -157,7 +151,7 @@ class Delivery {
 
   const BagFile& file_;
   Places places_;
-  std::size_t num_imus_, num_sensors_;
+  const std::vector<BagTopic>& topics_;
   Range range_;
   const TopicSinks& take_;
   TopicGaps* gaps_;
@@ -198,19 +192,15 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
   return delivery.deliverBefore(std::numeric_limits<std::uint64_t>::max());
 }
 
-std::vector<std::string> neededTopics(const ImuBags& bags) {
-  std::vector<std::string> topics(bags.topics.begin(),
-                                  bags.topics.end() - static_cast<std::ptrdiff_t>(bags.not_needed));
-  topics.insert(topics.end(), bags.wrench_topics.begin(), bags.wrench_topics.end());
-  return topics;
-}
-
 }  // namespace
 
-std::vector<std::string> ImuBags::allTopics() const {
-  std::vector<std::string> all = topics;
-  all.insert(all.end(), wrench_topics.begin(), wrench_topics.end());
-  return all;
+std::vector<std::string> ImuBags::allTopics() const { return namesOf(topics); }
+
+std::vector<std::string> ImuBags::neededTopics() const {
+  std::vector<std::string> needed;
+  for (const BagTopic& topic : topics)
+    if (topic.is_needed) needed.push_back(topic.name);
+  return needed;
 }
 
 ImuBags ImuBags::of(const std::string& path, TopicGaps& its_gaps) const {
@@ -224,7 +214,7 @@ void readTopics(const ImuBags& bags, const TopicSinks& take) {
   for (const std::string& path : bags.paths) {
     BagFile file(path);
     if (file.chunks().empty()) throw TooLittleError(path + ": the bag holds no messages");
-    if (bags.gaps != nullptr) bags.gaps->beginBag(path, neededTopics(bags));
+    if (bags.gaps != nullptr) bags.gaps->beginBag(path, bags.neededTopics());
     const bool goes_on = readBag(file, bags, take);
     if (bags.gaps != nullptr) bags.gaps->finishBag();
     if (!goes_on) return;

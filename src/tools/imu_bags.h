@@ -19,30 +19,35 @@ namespace suspension_health_monitor {
 /// Options that name the topics, by Side.
 inline constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
 
+/// A topic of IMUs, or of known forces.
+struct BagTopic {
+  std::string name;
+  std::string named_by;   ///< the option or setting that names it
+  bool is_force = false;  ///< of geometry_msgs/WrenchStamped, else of sensor_msgs/Imu
+  bool is_needed = true;  ///< else its silence is none
+};
+
 /// What to read: one or more bags, the topics, and a part of each bag.
 struct ImuBags {
   std::vector<std::string> paths;
-  std::vector<std::string> topics;              ///< of sensor_msgs/Imu
-  std::vector<std::string> wrench_topics;       ///< of geometry_msgs/WrenchStamped
+  std::vector<BagTopic> topics;                 ///< of sensors, those that are needed first
   std::vector<std::string> temperature_topics;  ///< of sensor_msgs/Temperature; a bag may lack them, one may be empty
-  std::vector<std::string> named_by;            ///< by topic, then by wrench topic, the option or setting that names it
   double start = 0.0;                           ///< seconds after the beginning of each bag
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 
-  TopicGaps* gaps = nullptr;   ///< told of all that is read, if it is given; outlives the reading
-  bool reads_ahead = true;     ///< in a second thread
-  std::size_t not_needed = 0;  ///< of `topics` so many, the last: their silence is none
+  TopicGaps* gaps = nullptr;  ///< told of all that is read, if it is given; outlives the reading
+  bool reads_ahead = true;    ///< in a second thread
 
-  /// @return the topics, then the wrench topics.
-  std::vector<std::string> allTopics() const;
+  std::vector<std::string> allTopics() const;  ///< of sensors
+  std::vector<std::string> neededTopics() const;
 
   /// @return the same of one bag alone.
   ImuBags of(const std::string& path, TopicGaps& its_gaps) const;
 };
 
-/// What is called with every message, its place among ImuBags::topics and then ImuBags::wrench_topics, or among
-/// ImuBags::temperature_topics, and the time of its recording; returns false to stop.
+/// What is called with every message, its place among ImuBags::topics, or among ImuBags::temperature_topics, and the
+/// time of its recording; returns false to stop.
 struct TopicSinks {
   std::function<bool(std::size_t, const sensor_msgs::Imu&, Stamp recorded)> imu;
   std::function<bool(std::size_t, const geometry_msgs::WrenchStamped&, Stamp recorded)> wrench;

@@ -29,14 +29,13 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
             if (report) report(strut, newest);
           },
           false) {
-  const std::vector<std::string> needed(topics_.begin(), topics_.begin() + static_cast<std::ptrdiff_t>(numNeeded()));
   for (std::size_t i = 0; i < healthy_.size(); ++i) {
     const LiveModel model = prefixed(options.vehicle.prefix(i, ": ", "struts/"), [&] {
       return LiveModel(options.settings.struts[i].shell, options.settings.model_of[i]);
     });
     pipeline_.setEffects(model.effects(), model.strutFor(model.effects()), i);
     if (healthy_[i]) pipeline_.setBaseline(healthy_[i]->baseline, i);
-    logs_.emplace_back(fromSeconds(options.settings.common.shell.input_timeout), needed,
+    logs_.emplace_back(fromSeconds(options.settings.common.shell.input_timeout), options.bags.neededTopics(),
                        [this, i, row](const HealthMoment& moment) {
                          if (row) row(i, moment, pipeline_.baseline(i));
                        });
@@ -46,7 +45,7 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
 std::vector<RecordedMonitor::Recording> RecordedMonitor::read() {
   std::vector<Recording> recordings;
   const auto take = [this](std::size_t sensor, const auto& message, Stamp recorded) {
-    if (sensor < numNeeded())
+    if (options_.bags.topics[sensor].is_needed)
       for (HealthLog& log : logs_) log.addReading(sensor, toStamp(message.header.stamp), recorded);
     pipeline_.push(sensor, message);
     if (pipeline_.monitor() != nullptr) pipeline_.monitor()->fitBodyIfDue();

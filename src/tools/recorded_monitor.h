@@ -69,7 +69,6 @@ class RecordedMonitor {
   }
 
  private:
-  std::size_t numNeeded() const { return topics_.size() - options_.bags.not_needed; }
   std::vector<std::string> mountFaults() const { return pipeline_.mountFaults(topics_); }
   void requireEnough() const;
   std::string whyTooLittle() const;

@@ -26,9 +26,8 @@ constexpr std::size_t kLookedAt = 40000;  // samples, where blocks show no strut
 
 // Of the topics that are needed.  @param count  messages of each to look at; becomes those that there were of all.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
-  std::vector<bool> is_required(bags.topics.size() - bags.not_needed, true);
-  is_required.resize(bags.topics.size(), false);
-  is_required.resize(bags.topics.size() + bags.wrench_topics.size(), true);
+  std::vector<bool> is_required;
+  for (const BagTopic& topic : bags.topics) is_required.push_back(topic.is_needed);
   PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording, is_required);
   const std::size_t most = std::exchange(count, 0) * is_required.size();
   const auto take = [&](std::size_t topic, const auto& message, Stamp) {

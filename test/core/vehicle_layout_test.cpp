@@ -183,8 +183,9 @@ TEST(VehicleStreams, NumberWhatTheStrutsNeed) {
   EXPECT_EQ(streams.sensors[4].setting, "struts/rear_right/unsprung_imu");
   EXPECT_EQ(streams.sensors[4].stream, 9u);
   EXPECT_EQ(streams.sensors[5].setting, "known_forces/tow_bar/topic");
-  EXPECT_EQ(streams.topicsOfImus().size(), 5u);
-  EXPECT_EQ(streams.topicsOfForces(), std::vector<std::string>{"/tow_bar/wrench"});
+  EXPECT_EQ(streams.sensors[5].topic, "/tow_bar/wrench");
+  for (std::size_t i = 0; i < streams.sensors.size(); ++i)
+    EXPECT_EQ(streams.sensors[i].place == VehicleStreams::Place::kForce, i == 5) << i;
 }
 
 TEST(VehicleStreams, OfForcesFromOneTopicAreOfOneSensor) {

@@ -61,23 +61,9 @@ void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& for
   }
 }
 
-std::vector<std::string> VehicleStreams::topicsOfImus() const {
-  std::vector<std::string> topics;
-  for (const Sensor& sensor : sensors)
-    if (sensor.place != Place::kForce) topics.push_back(sensor.topic);
-  return topics;
-}
-
 std::size_t VehicleStreams::bodyImuOf(std::size_t strut) const {
   const std::optional<std::size_t>& own = channels.struts[strut].sprung;
   return options[own ? *own : *channels.body_imu].sensor;
-}
-
-std::vector<std::string> VehicleStreams::topicsOfForces() const {
-  std::vector<std::string> topics;
-  for (const Sensor& sensor : sensors)
-    if (sensor.place == Place::kForce) topics.push_back(sensor.topic);
-  return topics;
 }
 
 }  // namespace suspension_health_monitor

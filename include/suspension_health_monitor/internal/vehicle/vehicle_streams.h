@@ -33,10 +33,6 @@ struct VehicleStreams {
   VehicleChannels channels;
   std::vector<Sensor> sensors;  ///< the IMUs, then the others
 
-  /// @return topics of the sensors that are IMUs, or of the others.
-  std::vector<std::string> topicsOfImus() const;
-  std::vector<std::string> topicsOfForces() const;
-
   /// @return the sensor that is a strut's body IMU: its own, or that of the body.
   std::size_t bodyImuOf(std::size_t strut) const;
   std::size_t wheelImuOf(std::size_t strut) const { return options[channels.struts[strut].unsprung].sensor; }
