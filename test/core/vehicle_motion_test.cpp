@@ -39,7 +39,7 @@ TEST(VehicleMotion, KeepsItsEnergyWithoutDampingAndLosesItWithAnyOne) {
   vehicle.anti_roll_bars = {{0, 1, 12000.0}, {2, 3, 7000.0}};
   for (VehicleStrut& strut : vehicle.struts) strut.damping = strut.tyre_damping = 0.0;
   const auto changeIn = [&](const Vehicle& tried) {
-    VehicleMotion motion(tried, flatUnder(tried));
+    VehicleMotion motion(tried, flatUnder(tried), 0.01);
     motion.state() = {0.02, 0.01, -0.03, 0.1, -0.2, 0.3, 0.01, -0.01, 0.0, 0.005, 0.4, 0.0, -0.5, 0.2};
     const double before = energyOf(tried, motion.state());
     motion.advance(5.0);

@@ -14,7 +14,7 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       sway_(options),
       sway_sensor_(options),
       faults_(SensorFaults::from(options.hidden_faults)),
-      now_(scenario_.driven, {scenario_.road}),
+      now_(scenario_.driven, {scenario_.road}, 1.0 / fasterRate(options)),
       delayed_(now_) {}
 
 std::optional<DriveSample> DriveSimulator::next() {

@@ -59,14 +59,15 @@ VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
 
 }  // namespace
 
-VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, std::vector<Signal> known_forces)
+VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, double between_samples,
+                             std::vector<Signal> known_forces)
     : vehicle_(vehicle),
       roads_(std::move(roads)),
       known_forces_(std::move(known_forces)),
       inverse_inertia_(1.0 / vehicle.mass, vehicle.pitches() ? 1.0 / vehicle.pitch_inertia : 0.0,
                        vehicle.rolls() ? 1.0 / vehicle.roll_inertia : 0.0),
       longest_step_(longestStep(vehicle)),
-      guard_(hiddenIn(vehicle), longest_step_) {
+      guard_(hiddenIn(vehicle), std::min(longest_step_, between_samples)) {
   validate(vehicle_);
   for (const VehicleStrut& strut : vehicle_.struts) own_mobility_.push_back(vehicle_.mobility(strut, strut));
   truth_.struts.resize(vehicle_.struts.size());

@@ -90,7 +90,8 @@ SixAxisReading readIdeally(const VehicleTruth& truth, const VehicleImu& imu, dou
 VehicleSimulator::VehicleSimulator(const Vehicle& vehicle, const VehicleDriveOptions& options)
     : vehicle_(checked(vehicle)),
       options_(checked(options)),
-      motion_(vehicle_, tracksOf(vehicle_, options.tracks, options.seed), signalsOf(vehicle_, options.seed)),
+      motion_(vehicle_, tracksOf(vehicle_, options.tracks, options.seed), 1.0 / options.rate,
+              signalsOf(vehicle_, options.seed)),
       body_(sensorAt(Accelerometer::Place::kSprung, 0)),
       body_noise_(options.seed, RandomPurpose::kSwayNoise),
       gyro_noise_(options.seed, RandomPurpose::kGyroNoise),

@@ -50,8 +50,10 @@ class VehicleMotion {
   using Signal = std::function<double(double t)>;
 
   /// @param roads  under every wheel.  @param known_forces  one per vehicle.known_forces [N].
+  /// @param between_samples  time from one advance() to the next [s].
   /// @throws std::invalid_argument  as validate().
-  VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, std::vector<Signal> known_forces = {});
+  VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, double between_samples,
+                std::vector<Signal> known_forces = {});
 
   /// Integrates up to t [s]; nothing is done where that is not after the last one.
   /// @throws std::invalid_argument  naming the hidden effects, if a strut runs away or is too stiff to be integrated.
