@@ -9,7 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr double kShareMean = 0.5, kShareStddev = 0.29;  // of r: uniform in (0, 1)
 // Noise of all wheels of a vehicle is in e of every top, in proportions that change with frequency: no r is right, and
 // what is wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
@@ -21,9 +20,8 @@ constexpr double kNoDelay = 1e-6;     // [s]
 constexpr double kNoGain = 1e-9;      // also beside data without noise
 constexpr int kSlowEvery = 4;         // blocks: all blocks then have changed by a sixteenth
 constexpr double kSlowFactor = 1.5;   // standard deviations of what changes slowly count so much more for fewer blocks
-constexpr double kContradiction = 3.0;  // standard deviations
-constexpr double kLost = 0.3;           // relative standard deviation from which there is no estimate to linearise at
-constexpr double kHalf = 0.5;           // of the body's power
+constexpr double kLost = 0.3;         // relative standard deviation from which there is no estimate to linearise at
+constexpr double kHalf = 0.5;         // of the body's power
 constexpr int kStartBlocks = 8, kStartSteps = 8;
 constexpr int kVehicleStartSteps = 3;  // all that one reading has time for; the blocks after it go on
 constexpr int kRefined = 8;            // blocks that are linearised anew per update
@@ -56,7 +54,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
       drive_(band, columns) {
   const int p = columns.numParameters();
   first_.mean.setZero(p);
-  first_.stddev.setConstant(p, kUnknown);
+  first_.stddev.setConstant(p, HUGE_VAL);
   first_.stddev[kBlockDelay] = delayStddev();
   first_.stddev[kBlockGain] = kNoGain;
   first_.mean[kBlockWheelShare] = kShareMean;
@@ -122,7 +120,7 @@ const WindowEstimate* BlockEstimator::update() {
   }
   if (has_theta_) equations_.linearise(theta_, block(0));
   if (!hasBlocks() || !(has_theta_ || start())) {
-    if (hasBlocks()) newest_worst_ = kUnknown;
+    if (hasBlocks()) newest_worst_ = HUGE_VAL;
     return nullptr;
   }
   if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
@@ -133,7 +131,7 @@ const WindowEstimate* BlockEstimator::update() {
   for (const int m : kWindows) {
     if (m > count_) break;
     const bool is_usable = fit(m, prior, trial_) && explainsSomething(trial_, equations_.band());
-    if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : kUnknown;
+    if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : HUGE_VAL;
     if (!is_usable) continue;
     if (contradictsShorter(trial_)) break;  // what is older is of another strut
     if (window == 0 || trial_.worst() < best_.worst()) {
@@ -159,7 +157,7 @@ const WindowEstimate* BlockEstimator::update() {
 bool BlockEstimator::start() {
   const bool is_alone = equations_.columns().neighbours == 0;
   scatter_ = 1.0;  // what was known is lost
-  told_worst_ = kUnknown;
+  told_worst_ = HUGE_VAL;
   // Where a strut was known and lost few blocks tell it from what went before, as from a burst of wrong readings.
   const bool was_known = is_alone && weights_.usual.size() > 0;
   if (startBy(std::min(count_, kStartBlocks)) || (was_known && startBy(kWindows.front()))) {
@@ -296,8 +294,7 @@ bool BlockEstimator::contradictsSlow() {
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
     if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
     const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
-    if (apart > kContradiction * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i]))
-      return true;
+    if (apart > kProven * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i])) return true;
   }
   return false;
 }
@@ -307,7 +304,7 @@ bool BlockEstimator::contradictsSlow() {
 // Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
 bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
   for (const Shorter& each : shorter_)
-    if (((estimate.theta.head<2>() - each.theta).array().abs() > kContradiction * each.stddev.array()).any() &&
+    if (((estimate.theta.head<2>() - each.theta).array().abs() > kProven * each.stddev.array()).any() &&
         leavesUnusual(each.blocks))
       return true;
   shorter_.push_back({estimate.blocks, estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/statistics.h"
@@ -11,14 +12,12 @@ namespace {
 
 constexpr double kLag = 0.01;
 
-/// The first blocks that are tried, and by how much the body's clock is taken for late.
-struct Trial {
-  double length;  // over the length that is asked for
-  double lag;     // of that length
-};
-// A short drive has no three blocks of that length. Struts that bounce far slower or faster than it is for come last.
-constexpr Trial kTrials[] = {{1.0, 0.0}, {1.0, kLag}, {1.0, -kLag}, {1.0, 2.0 * kLag}, {1.0, -2.0 * kLag},
-                             {0.5, 0.0}, {8.0, 0.0},  {0.125, 0.0}, {1.0 / 32.0, 0.0}};
+// The first blocks that are tried, over the length that is asked for, and by how much of it the body's clock is taken
+// for late. A short drive has no three blocks of that length. Struts that bounce far slower or faster than it is for
+// come last.
+constexpr std::pair<double, double> kTrials[] = {{1.0, 0.0},        {1.0, kLag},        {1.0, -kLag},
+                                                 {1.0, 2.0 * kLag}, {1.0, -2.0 * kLag}, {0.5, 0.0},
+                                                 {8.0, 0.0},        {0.125, 0.0},       {1.0 / 32.0, 0.0}};
 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
   BlockOptions options;
@@ -57,8 +56,8 @@ int RoughStrut::horizonSamples(double period) const {
 std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double period, double length) {
   constexpr double kHalf = 0.5;
   std::optional<RoughStrut> best;
-  for (const Trial& trial : kTrials) {
-    const auto found = find(drives, period, trial.length * length, trial.lag * length);
+  for (const auto& [blocks, lag] : kTrials) {
+    const auto found = find(drives, period, blocks * length, lag * length);
     if (found && (!best || found->explained > best->explained)) best = found;
     if (best && best->explained > kHalf) break;
   }

@@ -10,7 +10,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kOutside = 0.05;  // of the power, on either side
-constexpr std::size_t kShortestWindow = 64, kLongestWindow = 16384;
+constexpr std::size_t kShortestPart = 64, kLongestPart = 16384;
 
 /// @return the bin below which that share of the power is.
 double quantile(const std::vector<double>& power, double share) {
@@ -53,9 +53,9 @@ std::optional<MotionRange> rangeOfMotion(const Records& records) {
   std::vector<std::size_t> sizes;
   for (const DriveSegment* segment : segments) sizes.push_back(segment->size());
   const std::size_t longest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
-  if (longest < kShortestWindow) return std::nullopt;
-  std::size_t length = kShortestWindow;
-  while (2 * length <= std::min(longest, kLongestWindow)) length *= 2;
+  if (longest < kShortestPart) return std::nullopt;
+  std::size_t length = kShortestPart;
+  while (2 * length <= std::min(longest, kLongestPart)) length *= 2;
 
   std::vector<double> power(length / 2 + 1), relative(length);
   Periodogram periodogram(length);

@@ -3,11 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 
 constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};  // D
-constexpr double kSignificant = 3.0;                          // standard deviations: by chance once in 700 trials
 constexpr double kFewest = 200.0;                             // rows, whose scatter is known within a tenth
 
 /// @return x' T by the readings `apart` before and after.
@@ -34,7 +35,7 @@ void SamplingTest::add(double value, double off) {
   const double moment = products_.mean(0), slope = products_.mean(1) / moment;
   const double independent = products_.weight() / kDifference.size();  // neighbouring differences share readings
   const double stddev = std::sqrt(products_.mean(2) * products_.mean(3) / independent) / std::abs(moment);
-  const bool is_certain = products_.weight() >= kFewest && std::abs(slope - 0.5) > kSignificant * stddev;
+  const bool is_certain = products_.weight() >= kFewest && std::abs(slope - 0.5) > kProven * stddev;
   less_than_half_ = !is_certain ? 0 : slope < 0.5 ? 1 : -1;
 }
 

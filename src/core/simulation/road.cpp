@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
@@ -10,11 +11,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-struct Wave {
-  double amplitude;  // [m]
-  double period;     // [s]
-};
-constexpr Wave kWaves[] = {{0.01, 1.3}, {0.02, 1.9}, {0.03, 2.5}, {0.04, 2.8}};
+// Amplitude [m] and period [s].
+constexpr std::pair<double, double> kWaves[] = {{0.01, 1.3}, {0.02, 1.9}, {0.03, 2.5}, {0.04, 2.8}};
 
 constexpr double kBumpHeight = 0.15;            // [m]
 constexpr double kBumpSharpness = 22.2;         // alpha [1/s^2]
@@ -45,11 +43,11 @@ RoadPoint operator+(const RoadPoint& a, const RoadPoint& b) {
 
 RoadPoint paperRoad(double t) {
   RoadPoint sum;
-  for (const Wave& wave : kWaves) {
-    const double omega = 2.0 * M_PI / wave.period;
+  for (const auto& [amplitude, period] : kWaves) {
+    const double omega = 2.0 * M_PI / period;
     const double cosine = std::cos(omega * t);
-    sum = sum + RoadPoint{wave.amplitude * (1.0 - cosine), wave.amplitude * omega * std::sin(omega * t),
-                          wave.amplitude * omega * omega * cosine};
+    sum = sum + RoadPoint{amplitude * (1.0 - cosine), amplitude * omega * std::sin(omega * t),
+                          amplitude * omega * omega * cosine};
   }
   return sum;
 }

@@ -18,7 +18,7 @@ class SamplingTest {
   /// Readings are missing before the next one.
   void interrupt() { in_a_row_ = 0; }
 
-  /// @return true if b is below 1/2, or above it, by kSignificant standard deviations.
+  /// @return true if b is below 1/2, or above it, by kProven standard deviations.
   bool isRegular() const { return less_than_half_ > 0; }
   bool isAsStamped() const { return less_than_half_ < 0; }
 
