@@ -126,10 +126,9 @@ DiagnoseService<DiagnoseVehicle>::Search searchOf(SearchTask task, TakeDiagnosis
 }
 
 DiagnoseService<Diagnose>::Search searchOf(SearchTask task, std::size_t strut, TakeDiagnosis take) {
-  return searchAll<Diagnose>(std::move(task), std::move(take),
-                             [strut](const VehicleDiagnosis& found, const SearchTask& its) {
-                               return toResponse(found, strut, its);
-                             });
+  return searchAll<Diagnose>(
+      std::move(task), std::move(take),
+      [strut](const VehicleDiagnosis& found, const SearchTask& its) { return toResponse(found, strut, its); });
 }
 
 }  // namespace suspension_health_monitor
