@@ -29,8 +29,13 @@ std::optional<RoughStrut> roughStart(const std::vector<Drive>& drives, double pe
   return roughStrut(drives, period, settings.presentBlockLength());
 }
 
+std::optional<MotionRange> oneFrequency(const std::deque<DriveRecord>& records) {
+  const std::optional<MotionRange> range = rangeOfMotion(pointersTo(records));
+  return range && range->isOneFrequency() ? range : std::nullopt;
+}
+
 PreparedDrives lacking(Shortcoming shortcoming, const StrutModel& start) {
-  return {shortcoming, reasonOf(shortcoming, start), start, {}, std::nullopt, std::nullopt};
+  return {shortcoming, reasonOf(shortcoming, start), start, {}};
 }
 
 }  // namespace
@@ -44,17 +49,16 @@ PreparedDrives prepareDrives(const std::vector<Drive>& drives, const std::option
   StrutModel start = model.value_or(StrutModel());
   if (rough) start = {rough->strut.damping_to_mass, rough->strut.stiffness_to_mass, {}, {}};
   // What a fit leaves to the linear damping may be less than nothing where an effect of the model damps.
-  const auto records = makeRecords(drives, period, StrutModel());
-  std::optional<MotionRange> range = rangeOfMotion(pointersTo(records));
-  if (range && !range->isOneFrequency()) range.reset();
   if (!(start.stiffness_to_mass > 0.0)) {
     PreparedDrives refused = lacking(Shortcoming::kNoDampedSpring, start);
-    if (range) refused.reason += ". " + describe(*range);
+    if (const auto range = oneFrequency(makeRecords(drives, period, StrutModel())))
+      refused.reason += ". " + describe(*range);
     return refused;
   }
   if (!canFollow(start, period)) return lacking(Shortcoming::kTooFast, start);
-  PreparedDrives prepared{Shortcoming::kNone, "", start, makeRecords(drives, period, start), std::nullopt, range};
-  if (!range && rough && rough->clocksDiffer(period)) {
+  PreparedDrives prepared{Shortcoming::kNone, "", start, makeRecords(drives, period, start)};
+  prepared.one_frequency = oneFrequency(prepared.records);
+  if (!prepared.one_frequency && rough && rough->clocksDiffer(period)) {
     prepared.lagged = start;
     prepared.lagged->reading.push_back({findEffect(measurementEffects(), "clock_offset"), {rough->clock_offset}});
   }

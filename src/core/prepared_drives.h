@@ -12,11 +12,11 @@ namespace suspension_health_monitor {
 /// What the facades start from.
 struct PreparedDrives {
   Shortcoming shortcoming = Shortcoming::kNone;
-  std::string reason;                        ///< to be read after "the drives"
-  StrutModel start;                          ///< the model given, or a rough one by blocks
-  std::deque<DriveRecord> records;           ///< one per drive; none if there is a shortcoming
-  std::optional<StrutModel> lagged;          ///< a rough one with clock_offset, if the clocks seem to differ
-  std::optional<MotionRange> one_frequency;  ///< if all motion is at one
+  std::string reason;                             ///< to be read after "the drives"
+  StrutModel start;                               ///< the model given, or a rough one by blocks
+  std::deque<DriveRecord> records;                ///< one per drive; none if there is a shortcoming
+  std::optional<StrutModel> lagged = {};          ///< a rough one with clock_offset, if the clocks seem to differ
+  std::optional<MotionRange> one_frequency = {};  ///< if all motion is at one
 };
 
 /// Settings (DiagnoseOptions or CompareOptions) -> period, horizon, rough model, records with the body's motion; and

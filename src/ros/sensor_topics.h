@@ -16,7 +16,7 @@
 
 namespace suspension_health_monitor {
 
-/// The topics of a vehicle's sensors and thermometers, and /tf_static if the mounts are told by transforms.
+/// The topics of a vehicle's sensors and thermometers, and /tf_static if transforms give the mounts.
 class SensorTopics {
  public:
   template <class Message>

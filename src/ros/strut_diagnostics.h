@@ -19,8 +19,8 @@
 namespace suspension_health_monitor {
 
 /// Tells the terminal at the end of a drive how it was: the worst level, how long each lasted, and the last estimates.
-/// A drive ends with this object, or once a simulated clock, that of a bag, has stood still for a while; what comes
-/// later is told with what came before.
+/// A drive ends with this object, or once a simulated clock, that of a bag, has stood still for a while. The next
+/// summary covers all messages since the start.
 class DriveSummary {
  public:
   /// @param strut  as the lines name it.

@@ -48,17 +48,17 @@ Survey survey(const BagOptions& options) {
   VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, options.period());
   std::optional<RoughStrut> rough;
   Drive drive;
+  // A few blocks of a law with memory look as if the clocks differed, the whole drive does not.
+  const auto isOpen = [&] { return !rough || rough->clocksDiffer(options.period()); };
   const auto take = [&](const VehicleSample& of_vehicle) {
     const CornerSample sample = of_vehicle.ofStrut(0);
     if (drive.samples.size() < kLookedAt) drive.samples.push_back(sample);
     const TopEstimate* estimate = blocks.push(sample);
     if (estimate != nullptr && estimate->worst() < kEnough) rough.emplace(*estimate);
-    // A few blocks of a law with memory look as if the clocks differed, the whole drive does not.
-    return !rough || rough->clocksDiffer(options.period());
+    return isOpen();
   };
   readSamples(options.bags, options.settings.common, options.vehicle.layout, {take});
-  const bool is_open = !rough || rough->clocksDiffer(options.period());
-  if (const auto all = blocks.overTheDrive(); all && is_open) rough.emplace(*all);
+  if (const auto all = isOpen() ? blocks.overTheDrive() : std::nullopt) rough.emplace(*all);
   if (!rough) rough = roughStrut({drive}, options.period());
   return {rough, rangeOfMotion(pointersTo(makeRecords({drive}, options.period(), StrutModel())))};
 }

@@ -211,8 +211,7 @@ void VehicleClaims::judge(const Hypothesis& hypothesis) {
   VehicleMistake other = attempt(hypothesis);
   const double slack = kNoiseKnownTo * noiseShare() * noise_;
   if (!(other.unexplained < least_) || !(other.unexplained + slack < kBetter * (filed_.unexplained + slack))) return;
-  other.moved = (fit(hypothesis, other.size).own / filed_.own - 1.0).abs().maxCoeff();
-  if (!(other.moved > kCosts)) return;
+  if (!((fit(hypothesis, other.size).own / filed_.own - 1.0).abs().maxCoeff() > kCosts)) return;
   least_ = other.unexplained;
   other.unexplained = found_.unexplained;
   found_ = other;

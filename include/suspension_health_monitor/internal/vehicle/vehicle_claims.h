@@ -38,7 +38,6 @@ struct VehicleMistake {
   double size = 0.0;         ///< what times the file's positions, what added to them [m], by how much late [s]
   double stddev = 0.0;       ///< of size
   double unexplained = 0.0;  ///< share of the tops' motion that the file as it stands leaves [-]
-  double moved = 0.0;        ///< by how much it moves b1 or b0 of a strut, the largest [-]
 
   /// @return true: what is estimated of any strut with this file is wrong. A delay that is no longer small against
   /// what links do to phases is among what is estimated, and what no mistake explains is an error of the model

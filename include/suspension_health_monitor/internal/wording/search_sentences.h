@@ -24,7 +24,7 @@ std::string suggestionOf(const SearchResult& result);
 /// What motion at one frequency cannot tell, and what to do.
 std::string describe(const MotionRange& one_frequency);
 
-/// Why an effect is not tried.
+/// Why an effect is not tried: all motion is at one frequency, or a channel of the body's IMU is missing.
 inline constexpr const char* kOneFrequency = "all motion is at one frequency, which cannot tell it";
 std::string reasonOf(BodyChannel missing);
 
