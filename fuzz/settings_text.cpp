@@ -8,7 +8,6 @@
 #include "ros/yaml_settings.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/model/user_effects.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {

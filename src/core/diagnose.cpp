@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "prepared_drives.h"
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

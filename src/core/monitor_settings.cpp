@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -6,8 +6,8 @@
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor_settings.h"
-#include "suspension_health_monitor/internal/plain_text.h"
-#include "suspension_health_monitor/internal/record/untestable_effects.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

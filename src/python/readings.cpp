@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "suspension_health_monitor/internal/signal/alignment_judge.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"

@@ -11,7 +11,7 @@
 #include "shell_options.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
 

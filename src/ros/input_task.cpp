@@ -9,8 +9,8 @@
 
 #include "conversions.h"
 #include "strut_diagnostics.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

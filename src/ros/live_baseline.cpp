@@ -8,8 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/plain_text.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
 

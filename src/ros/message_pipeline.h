@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/signal/recent_samples.h"
-#include "suspension_health_monitor/internal/vehicle/mount_claim.h"
+#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_options.h"

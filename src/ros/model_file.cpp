@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/model/user_effects.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
 #include "yaml_settings.h"
 

@@ -4,8 +4,7 @@
 #include <stdexcept>
 
 #include "parameters.h"
-#include "suspension_health_monitor/internal/prefixed.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 
 namespace suspension_health_monitor {
 

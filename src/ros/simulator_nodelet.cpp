@@ -9,7 +9,7 @@
 
 #include "conversions.h"
 #include "parameters.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

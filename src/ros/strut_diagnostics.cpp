@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <vector>
 
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

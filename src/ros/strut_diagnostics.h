@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "live_model.h"
-#include "suspension_health_monitor/internal/monitor/level_times.h"
+#include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "task_log.h"
 

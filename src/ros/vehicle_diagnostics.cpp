@@ -4,7 +4,7 @@
 
 #include "conversions.h"
 #include "strut_diagnostics.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {

@@ -8,9 +8,8 @@
 
 #include "live_model.h"
 #include "model_file.h"
-#include "suspension_health_monitor/internal/prefixed.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {

@@ -11,8 +11,8 @@
 
 #include "imu_mount.h"
 #include "shell_options.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 
 namespace suspension_health_monitor {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "suspension_health_monitor/internal/option_table.h"
-#include "suspension_health_monitor/internal/prefixed.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 

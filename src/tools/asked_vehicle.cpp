@@ -6,7 +6,7 @@
 #include "../ros/vehicle_sensors.h"
 #include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

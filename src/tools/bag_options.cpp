@@ -9,7 +9,7 @@
 #include "../ros/model_file.h"
 #include "bag_file.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace po = boost::program_options;

@@ -10,9 +10,7 @@
 #include <stdexcept>
 
 #include "../ros/yaml_settings.h"
-#include "suspension_health_monitor/internal/nearest_name.h"
-#include "suspension_health_monitor/internal/plain_text.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

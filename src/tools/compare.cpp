@@ -8,7 +8,7 @@
 #include "long_work.h"
 #include "recorded_search.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -11,8 +11,8 @@
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/digest.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

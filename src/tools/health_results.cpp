@@ -3,7 +3,7 @@
 
 #include "json_of.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/blocks/block_options.h"
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 

@@ -7,9 +7,9 @@
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

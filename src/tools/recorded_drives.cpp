@@ -6,7 +6,7 @@
 
 #include "../ros/conversions.h"
 #include "../ros/vehicle_sensors.h"
-#include "suspension_health_monitor/internal/signal/alignment_judge.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bag_options.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/vehicle/body_level.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"
 

@@ -8,11 +8,10 @@
 #include "../ros/conversions.h"
 #include "command.h"
 #include "recorded_drives.h"
-#include "suspension_health_monitor/internal/prefixed.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
+#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 

@@ -3,8 +3,8 @@
 #include "command.h"
 #include "report_page.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 

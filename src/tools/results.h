@@ -10,7 +10,7 @@
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
-#include "suspension_health_monitor/internal/vehicle/body_inertia.h"
+#include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {

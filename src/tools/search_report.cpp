@@ -2,8 +2,8 @@
 
 #include "json_of.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -11,9 +11,8 @@
 #include "../ros/model_file.h"
 #include "../ros/yaml_settings.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

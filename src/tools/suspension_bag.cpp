@@ -6,8 +6,7 @@
 
 #include "command.h"
 #include "long_work.h"
-#include "suspension_health_monitor/internal/nearest_name.h"
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

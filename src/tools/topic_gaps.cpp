@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "command.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,11 +1,11 @@
-#include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "suspension_health_monitor/internal/signal/filters.h"
 
 namespace suspension_health_monitor {
 namespace {

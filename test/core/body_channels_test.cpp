@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../../src/core/record/slope_filter.h"
-#include "suspension_health_monitor/internal/record/untestable_effects.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/internal/record/untestable_effects.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
 
 namespace suspension_health_monitor {
 

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/vehicle/body_level.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -8,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 
 namespace suspension_health_monitor {

@@ -1,8 +1,7 @@
-#include "suspension_health_monitor/internal/signal/continuity.h"
-
 #include <gtest/gtest.h>
 
 #include "milliseconds.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/health_rules.h"
-#include "suspension_health_monitor/internal/health/strut_change.h"
 
 namespace suspension_health_monitor {
 namespace {

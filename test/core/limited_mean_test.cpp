@@ -1,9 +1,9 @@
-#include "suspension_health_monitor/internal/identification/limited_mean.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "suspension_health_monitor/internal/identification/running_means.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/signal/low_pass.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "driven_mass.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 
 namespace suspension_health_monitor {
 namespace {

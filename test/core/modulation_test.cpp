@@ -1,10 +1,9 @@
-#include "suspension_health_monitor/internal/blocks/modulation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "block_drive.h"
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,11 +1,10 @@
-#include "suspension_health_monitor/internal/vehicle/mount_claim.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
+#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {

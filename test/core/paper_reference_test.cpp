@@ -6,7 +6,7 @@
 #include "csv.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/regression.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "suspension_health_monitor/internal/identification/regression_row.h"
+#include "suspension_health_monitor/internal/identification/regression.h"
 
 namespace suspension_health_monitor {
 

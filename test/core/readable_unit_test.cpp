@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/signal/resampled_grid.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "interleaved.h"
+#include "suspension_health_monitor/internal/signal/grids.h"
 #include "uniform_grid.h"
 
 namespace suspension_health_monitor {

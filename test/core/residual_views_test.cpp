@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "suspension_health_monitor/internal/compare/residual_analysis.h"
+#include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

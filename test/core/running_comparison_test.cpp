@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/identification/running_comparison.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
+#include "suspension_health_monitor/internal/identification/running_means.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 
 namespace suspension_health_monitor {
 namespace {

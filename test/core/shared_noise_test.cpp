@@ -1,12 +1,10 @@
-#include "suspension_health_monitor/internal/vehicle/shared_noise.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 #include "suspension_health_monitor/internal/statistics.h"
-#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,6 +1,4 @@
 // The spline through readings at any positions, against the dense normal equations and against what no penalty moves.
-#include "suspension_health_monitor/internal/signal/smoothing_spline.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -8,6 +6,8 @@
 #include <functional>
 #include <random>
 #include <vector>
+
+#include "suspension_health_monitor/internal/signal/stream_resampler.h"
 
 namespace suspension_health_monitor {
 namespace {

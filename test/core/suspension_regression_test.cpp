@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/identification/suspension_regression.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "paper_drive.h"
 #include "reference/batch_estimators.h"
 #include "reference/general_regression.h"
+#include "suspension_health_monitor/internal/identification/regression.h"
 
 namespace suspension_health_monitor {
 namespace {

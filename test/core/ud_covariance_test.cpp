@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/identification/ud_covariance.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,6 +7,8 @@
 #include <optional>
 #include <random>
 #include <vector>
+
+#include "suspension_health_monitor/internal/identification/recursive_covariance.h"
 
 namespace suspension_health_monitor {
 namespace {

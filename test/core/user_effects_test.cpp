@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/model/user_effects.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 
 namespace suspension_health_monitor {

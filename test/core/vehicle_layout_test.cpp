@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
-
 namespace suspension_health_monitor {
 namespace {
 

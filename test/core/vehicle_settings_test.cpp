@@ -1,9 +1,9 @@
-#include "suspension_health_monitor/internal/simulation/vehicle_settings.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <string>
+
+#include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
 
 namespace suspension_health_monitor {
 namespace {

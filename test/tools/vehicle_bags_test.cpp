@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "ros/vehicle_options.h"
-#include "suspension_health_monitor/internal/signal/motion_filter.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 #include "tools/command.h"
 #include "tools/recorded_drives.h"
 

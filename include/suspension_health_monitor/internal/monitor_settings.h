@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/blocks/block_options.h"
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/internal/identification/suspension_regression.h"
+#include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/option_table.h"
-#include "suspension_health_monitor/internal/prefixed.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 

@@ -3,15 +3,140 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/compare/residual_analysis.h"
+#include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/search/screening.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+std::optional<PredictionError> errorOf(const std::vector<double>& measured, const std::vector<double>& predicted) {
+  using Series = Eigen::Map<const Eigen::ArrayXd>;
+  if (measured.empty()) return std::nullopt;
+  const auto count = static_cast<Eigen::Index>(measured.size());
+  const Series y(measured.data(), count);
+  const double error = (y - Series(predicted.data(), count)).square().sum(), spread = (y - y.mean()).square().sum();
+  if (!(spread > 0.0) || !std::isfinite(error)) return std::nullopt;
+  return PredictionError{std::sqrt(error / static_cast<double>(count)), 100.0 * (1.0 - std::sqrt(error / spread))};
+}
+
+/// The measurement without the faults of its reading, to first order in them.
+std::vector<double> trueReading(const ComparedSegment& segment, const StrutModel& model) {
+  std::vector<double> faulty = segment.measured;
+  for (const ActiveMeasurementEffect& reading : model.reading)
+    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, faulty);
+  for (std::size_t k = 0; k < faulty.size(); ++k) faulty[k] = 2.0 * segment.measured[k] - faulty[k];
+  return faulty;
+}
+
+}  // namespace
+
+std::optional<PredictionError> freeRunError(const std::vector<ComparedSegment>& segments) {
+  std::vector<double> measured, predicted;
+  for (const ComparedSegment& segment : segments) {
+    measured.insert(measured.end(), segment.measured.begin(), segment.measured.end());
+    predicted.insert(predicted.end(), segment.predicted.begin(), segment.predicted.end());
+  }
+  return errorOf(measured, predicted);
+}
+
+std::optional<PredictionError> oneStepError(const std::vector<ComparedSegment>& segments, const StrutModel& model,
+                                            const IntegralFilterOptions& filter) {
+  std::vector<double> measured, predicted;
+  for (const ComparedSegment& segment : segments) {
+    SuspensionRegression regression(filter);
+    LinearIntegralFilter added(2, filter, 2);
+    const std::vector<double> reading = trueReading(segment, model);
+    for (std::size_t k = 0; k < segment.size(); ++k) {
+      added.push(segment.added_force[k]);
+      const RegressionRow* row = regression.push({{}, reading[k], segment.wheel[k]});
+      if (row == nullptr) continue;
+      measured.push_back(row->output);
+      predicted.push_back(model.damping_to_mass * row->regressor[kDampingToMass] +
+                          model.stiffness_to_mass * row->regressor[kStiffnessToMass] + added.output(2));
+    }
+  }
+  return errorOf(measured, predicted);
+}
+
+namespace {
+
+/// @param taps  of the filter that the drive has passed.
+void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
+                     const std::vector<double>& taps, ComparedSegment& segment) {
+  const MotionError wrong = motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
+  std::vector<double>& force = segment.missing_force;
+  force.resize(segment.size());
+  for (std::size_t k = 0; k < segment.size(); ++k)
+    force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
+                           segment.timeDriven(k), motion[k].memory.data());
+  passLow(taps, force);
+  for (const ActiveMeasurementEffect& reading : model.reading)
+    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, force);
+  for (std::size_t k = 0; k < segment.size(); ++k) force[k] = segment.measured[k] - force[k];
+}
+
+ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
+                            const std::vector<StrutState>& motion) {
+  ComparedSegment segment;
+  segment.start = source.start;
+  segment.driven_before = source.driven_before;
+  segment.period = source.period;
+  segment.measured = source.sprung;
+  segment.wheel = source.unsprung;
+  segment.body = source.body;
+  for (std::size_t k = 0; k < source.size(); ++k) {
+    const StrutState& state = motion[k];
+    segment.travel.push_back(state.travel);
+    segment.travel_rate.push_back(state.travel_rate);
+    segment.added_force.push_back(
+        model.force(state.travel, state.travel_rate, segment.timeDriven(k), state.memory.data()) -
+        model.damping_to_mass * state.travel_rate - model.stiffness_to_mass * state.travel);
+  }
+  passLow(source.taps, segment.added_force);
+  return segment;
+}
+
+}  // namespace
+
+std::vector<double> ComparedSegment::residuals() const {
+  std::vector<double> all(size());
+  for (std::size_t k = 0; k < size(); ++k) all[k] = residual(k);
+  return all;
+}
+
+Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
+  Residuals residuals;
+  for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
+  return residuals;
+}
+
+std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
+                                              const std::vector<StrutState>& initial) {
+  ComparedDrives drives;
+  auto& [segments, motion] = drives;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (const DriveSegment& source : records[r]->segments()) {
+      std::vector<double> predicted;
+      motion.emplace_back();
+      if (!runFree(model, source, initial[segments.size()], predicted, &motion.back())) return std::nullopt;
+      segments.push_back(makeSegment(model, source, motion.back()));
+      segments.back().drive = r;
+      segments.back().predicted = std::move(predicted);
+    }
+  const double mean = meanOf(residualsOf(segments));
+  const std::vector<const DriveSegment*> sources = segmentsOf(records);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
+  return drives;
+}
+
 namespace {
 
 /// Fits the model, or keeps it.

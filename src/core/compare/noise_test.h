@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "suspension_health_monitor/internal/compare/residual_analysis.h"
+#include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

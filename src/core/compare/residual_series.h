@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/compare/residual_analysis.h"
+#include "suspension_health_monitor/internal/compare/comparison.h"
 
 namespace suspension_health_monitor {
 

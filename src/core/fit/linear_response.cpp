@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "suspension_health_monitor/internal/signal/low_pass.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

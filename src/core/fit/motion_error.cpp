@@ -1,10 +1,9 @@
-#include "suspension_health_monitor/internal/fit/motion_error.h"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
+#include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "suspension_health_monitor/internal/fit/hat_functions.h"
-#include "suspension_health_monitor/internal/fit/motion_error.h"
+#include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
-#include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "carried_memories.h"
+#include "parameterization.h"
 
 namespace suspension_health_monitor {
 namespace {

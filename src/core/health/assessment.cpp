@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "suspension_health_monitor/internal/blocks/block_options.h"
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 #include "suspension_health_monitor/internal/statistics.h"
 

@@ -5,7 +5,7 @@
 #include <complex>
 #include <limits>
 
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,10 +1,80 @@
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+constexpr int kCorrections = 6;
+
+// Of exp(i w t), T = 1, the integral up to t = 0 is 1 / (i w), where the sum up to there has cot(w / 2) / (2 i), half
+// of the end's sample counted. What is between them the corrections -2 i sum c_k sin(k w) have to make: least squares
+// of their error over the integral, most where motion is, at low frequencies, under the condition that the slope at w =
+// 0 is right, 2 sum k c_k = 1/12, which makes the rule exact on cubics.
+std::vector<double> endCorrections() {
+  constexpr int kFrequencies = 128;
+  constexpr double kBand = 0.75;  // of the Nyquist frequency: what an anti-alias filter lets pass
+  using Corrections = Eigen::Matrix<double, kCorrections, 1>;
+  using WithCondition = Eigen::Matrix<double, kCorrections + 1, 1>;
+  Eigen::Matrix<double, kCorrections + 1, kCorrections + 1> system;
+  system.setZero();
+  WithCondition right = WithCondition::Zero();
+  const Corrections k = Corrections::LinSpaced(1.0, kCorrections);
+  for (int i = 1; i <= kFrequencies; ++i) {
+    const double w = kBand * M_PI * i / kFrequencies, weight = std::pow(w, -6);
+    const Corrections made = 2.0 * w * (w * k).array().sin().matrix();
+    system.topLeftCorner<kCorrections, kCorrections>() += weight * made * made.transpose();
+    right.head<kCorrections>() += weight * (1.0 - 0.5 * w / std::tan(0.5 * w)) * made;
+  }
+  system.topRightCorner<kCorrections, 1>() = 2.0 * k;
+  system.bottomLeftCorner<1, kCorrections>() = 2.0 * k.transpose();
+  right[kCorrections] = 1.0 / 12.0;
+  const WithCondition solution = system.fullPivLu().solve(right);
+  return {solution.data(), solution.data() + kCorrections};
+}
+
+}  // namespace
+
+HorizonIntegral::HorizonIntegral(int intervals, double period, IntegrationRule rule)
+    : intervals_(intervals),
+      period_(period),
+      lateness_(lateness(rule)),
+      ends_(std::max(intervals, 1) + 1),
+      until_refresh_(intervals) {
+  if (intervals < 1) refuse("horizon_samples", intervals, "", "at least 1");
+  requireAboveZero("sample_period", period, "s");
+  static const std::vector<double> band_limited = endCorrections();
+  if (rule == IntegrationRule::kBandLimited) corrections_ = band_limited;
+}
+
+int HorizonIntegral::lateness(IntegrationRule rule) { return rule == IntegrationRule::kBandLimited ? kCorrections : 0; }
+
+double HorizonIntegral::update(const DelayLine& signal) {
+  const double end = signal.at(lateness_);
+  sum_ += end - signal.at(lateness_ + intervals_);
+  fresh_ += end;
+  if (--until_refresh_ == 0) {
+    sum_ = fresh_;
+    fresh_ = 0.0;
+    until_refresh_ = intervals_;
+  }
+  double correction = -0.5 * end;
+  for (int k = 1; k <= lateness_; ++k)
+    correction += corrections_[static_cast<std::size_t>(k) - 1] * (signal.at(lateness_ + k) - signal.at(lateness_ - k));
+  ends_.push(correction);
+  return period_ * (sum_ + correction - ends_.at(intervals_));
+}
+
+void HorizonIntegral::reset() {
+  ends_.reset();
+  sum_ = fresh_ = 0.0;
+  until_refresh_ = intervals_;
+}
 
 LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative)
     : order_(order),

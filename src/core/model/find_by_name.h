@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "suspension_health_monitor/internal/nearest_name.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 IdentifiedStrut toIdentified(const StrutEstimate& estimate) {

@@ -1,6 +1,6 @@
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 
-#include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
 namespace {

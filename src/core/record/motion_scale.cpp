@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/model/free_run.h"
-#include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
 

@@ -7,7 +7,6 @@
 #include "explanation.h"
 #include "model_evaluator.h"
 #include "rivals.h"
-#include "selection.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/statistics.h"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "suspension_health_monitor/internal/fit/motion_error.h"
+#include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/search/screening.h"
-#include "suspension_health_monitor/internal/signal/low_pass.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {

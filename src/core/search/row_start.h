@@ -5,7 +5,7 @@
 
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
-#include "suspension_health_monitor/internal/search/weighted_projection.h"
+#include "suspension_health_monitor/internal/search/screening.h"
 
 namespace suspension_health_monitor {
 

@@ -1,12 +1,103 @@
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <stdexcept>
 
-#include "suspension_health_monitor/internal/plain_text.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
+#include "suspension_health_monitor/internal/signal/grid_streams.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
+
+void AlignmentJudge::addInstant(Stamp reference) {
+  const Stamp spacing = last_ ? reference - *last_ : Stamp::zero();
+  last_ = reference;
+  if (2 * spacing < 3 * period_ || spacing > kLongestLoss * period_) return;
+  const double longest = kInterruptions * fill_ / std::log(2.0) * toSeconds(period_);
+  const bool often = interruptions_.full() && toSeconds(reference - interruptions_.front()) < longest;
+  if (verdict_ == Verdict::kDoesWell && often) verdict_ = Verdict::kInterrupted;
+  interruptions_.push_back(reference);
+}
+
+void AlignmentJudge::addPair(std::size_t stream, Stamp reference, Stamp partner) {
+  Outcomes& outcomes = outcomes_[stream];
+  ++outcomes.pairs;
+  outcomes.lone_in_a_row = 0;
+  outcomes.apart += std::chrono::abs(reference - partner);
+  judge(outcomes);
+}
+
+void AlignmentJudge::addLone(std::size_t stream) {
+  Outcomes& outcomes = outcomes_[stream];
+  if (++outcomes.lone_in_a_row > kLongestRow) return;
+  ++outcomes.lone;
+  judge(outcomes);
+}
+
+void AlignmentJudge::startNewSeries() {
+  outcomes_.assign(outcomes_.size(), {});
+  last_.reset();
+  interruptions_.clear();
+}
+
+void AlignmentJudge::judge(Outcomes& outcomes) {
+  if (outcomes.pairs + outcomes.lone < kOutcomes) return;
+  if (verdict_ == Verdict::kDoesWell) {
+    if (toSeconds(outcomes.apart) > kMostOffset * outcomes.pairs * toSeconds(period_)) verdict_ = Verdict::kApart;
+    if (outcomes.lone > kMostLone * kOutcomes) verdict_ = Verdict::kLoneReadings;
+  }
+  outcomes.pairs = outcomes.lone = 0;
+  outcomes.apart = {};
+}
+
+GridStreams::GridStreams(Stamp period, const std::vector<StreamOptions>& options) {
+  const auto reference =
+      std::find_if(options.begin(), options.end(), [](const StreamOptions& o) { return o.required; });
+  if (reference == options.end()) throw std::invalid_argument("of the streams of a grid at least one must be required");
+  reference_ = static_cast<std::size_t>(reference - options.begin());
+  std::size_t sensors = 0;
+  streams_.reserve(options.size());
+  for (const StreamOptions& each : options) {
+    streams_.emplace_back(period, each);
+    sensors = std::max(sensors, each.sensor + 1);
+  }
+  sensor_is_still_.resize(sensors);
+}
+
+bool GridStreams::areWaiting() const {
+  return std::none_of(streams_.begin(), streams_.end(),
+                      [](const GridStream& stream) { return stream.options.required && stream.waiting.empty(); });
+}
+
+bool GridStreams::mayStillCome(GridStream& optional) const {
+  const ReadingQueue& waiting = streams_[reference_].waiting;
+  const Stamp lag = waiting.empty() ? Stamp::zero() : waiting.back().stamp - waiting.front().stamp;
+  if (waiting.full() || lag > kMostOptionalLag) optional.is_silent = true;
+  return !optional.is_silent;
+}
+
+bool GridStreams::rejectStuck() {
+  std::fill(sensor_is_still_.begin(), sensor_is_still_.end(), true);
+  const auto isCompared = [](const GridStream& stream) { return stream.options.required && !stream.options.is_force; };
+  for (const GridStream& stream : streams_)
+    if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
+  const auto standsStill = [&](const GridStream& stream) {
+    return isCompared(stream) && sensor_is_still_[stream.options.sensor];
+  };
+  const auto moves = [&](const GridStream& stream) {
+    return isCompared(stream) && !sensor_is_still_[stream.options.sensor];
+  };
+  if (std::none_of(streams_.begin(), streams_.end(), standsStill) ||
+      std::none_of(streams_.begin(), streams_.end(), moves))
+    return false;
+  for (GridStream& stream : streams_)
+    if (standsStill(stream)) stream.rejected.add(RejectReason::kStuck);
+  return true;
+}
+
 namespace {
 
 // Before the conversion to whole nanoseconds, which is undefined for NaN and what does not fit.

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "suspension_health_monitor/internal/plain_text.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -2,8 +2,46 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
+
+#include "suspension_health_monitor/internal/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+constexpr int kNumSines = 24;
+
+}  // namespace
+
+BodySway::BodySway(const SimulationOptions& options) {
+  RandomStream random(options.seed, RandomPurpose::kSway);
+  const auto draw = [&](double rms, double lowest, double highest) {
+    Sines sines;
+    for (int i = 0; i < kNumSines; ++i) {
+      const double share = (i + random.uniform()) / kNumSines;  // spread evenly by ratio
+      sines.push_back({rms * std::sqrt(2.0 / kNumSines), 2.0 * M_PI * lowest * std::pow(highest / lowest, share),
+                       2.0 * M_PI * random.uniform()});
+    }
+    return sines;
+  };
+  for (Sines& sines : accelerations_) sines = draw(options.body_acceleration, 0.1, 1.0);
+  for (Sines& sines : rates_) sines = draw(options.body_rate, 0.3, 4.0);
+}
+
+Sway BodySway::at(double t) const {
+  Sway sway;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    for (const Sine& s : accelerations_[axis])
+      sway.acceleration[axis] += s.amplitude * std::sin(s.frequency * t + s.phase);
+    for (const Sine& s : rates_[axis]) {
+      sway.angular_rate[axis] += s.amplitude * std::sin(s.frequency * t + s.phase);
+      sway.angular_acceleration[axis] += s.amplitude * s.frequency * std::cos(s.frequency * t + s.phase);
+    }
+  }
+  return sway;
+}
+
 namespace {
 
 // By place.
@@ -100,6 +138,29 @@ double SensorFaults::read(double acceleration, const Sway& sway) const {
   const double here =
       acceleration + sway.angular_acceleration[0] * position[1] - sway.angular_acceleration[1] * position[0];
   return (1.0 + gain_error) * (here + tilt[0] * sway.acceleration[0] + tilt[1] * sway.acceleration[1]) + bias;
+}
+
+namespace {
+
+std::mt19937_64 seeded(int seed, RandomPurpose purpose, unsigned index) {
+  std::vector<unsigned> numbers{static_cast<unsigned>(seed), static_cast<unsigned>(purpose)};
+  if (index != 0) numbers.push_back(index);
+  std::seed_seq sequence(numbers.begin(), numbers.end());
+  return std::mt19937_64(sequence);
+}
+
+}  // namespace
+
+RandomStream::RandomStream(int seed, RandomPurpose purpose, unsigned index) : engine_(seeded(seed, purpose, index)) {}
+
+double RandomStream::uniform() {
+  // The upper 53 bits fill a double's mantissa exactly.
+  return static_cast<double>(engine_() >> 11) * 0x1p-53;
+}
+
+double RandomStream::gaussian() {
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+  return radius * std::cos(2.0 * M_PI * uniform());
 }
 
 }  // namespace suspension_health_monitor

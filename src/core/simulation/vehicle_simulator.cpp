@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/plain_text.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
-#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -8,12 +8,10 @@
 
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
-#include "suspension_health_monitor/internal/vehicle/shared_noise.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
-#include "suspension_health_monitor/internal/wording/words.h"
 
 namespace suspension_health_monitor {
 namespace {

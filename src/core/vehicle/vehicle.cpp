@@ -1,14 +1,53 @@
 #include "suspension_health_monitor/vehicle.h"
 
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "options_by_strut.h"
 #include "separator.h"
+#include "suspension_health_monitor/internal/search/effect_search.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_identification.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
+
+/// @param options  by strut, or one that is meant for all, or none: the defaults.
+/// @return by strut.
+/// @throws std::invalid_argument  if they are of another number of struts.
+template <class Options>
+std::vector<Options> optionsByStrut(const std::vector<Options>& options, std::size_t num_struts) {
+  if (options.empty()) return std::vector<Options>(num_struts);
+  if (options.size() == 1) return std::vector<Options>(num_struts, options.front());
+  if (options.size() != num_struts)
+    throw std::invalid_argument("options of " + std::to_string(options.size()) + " struts, must be of " +
+                                std::to_string(num_struts) + ", or one for all");
+  return options;
+}
+
+/// @return that of the vehicle, if it is given.
+template <class Options>
+std::optional<double> samplePeriodOf(const std::vector<Options>& options) {
+  return options.empty() ? std::nullopt : options.front().sample_period;
+}
+
+/// @return true for a strut alone, which has no name and nothing that it is to be separated from.
+inline bool isOneStrut(const std::vector<std::string>& names) { return names.size() == 1 && names.front().empty(); }
+
+/// @throws std::invalid_argument  if a drive has another number of struts.
+inline std::vector<Drive> drivesOfOne(const std::vector<VehicleDrive>& drives) {
+  std::vector<Drive> own;
+  for (const VehicleDrive& drive : drives) {
+    if (drive.struts.size() != 1) throw std::invalid_argument("a drive of more than one strut, must be of one");
+    own.push_back(drive.struts.front());
+  }
+  return own;
+}
+
 namespace {
 
 MonitorSettings settingsOf(const IdentifyOptions& options, double period) {
@@ -62,6 +101,169 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
     }
   monitor.fitBody();
   return identified(monitor, names, namesOf(drives.front().forces));
+}
+
+namespace {
+
+bool names(const Diagnosis& strut) {
+  return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
+}
+
+// @return mean square that what was found explains [(m/s^2)^2].
+double explainedPower(const Diagnosis& strut) {
+  return strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse;
+}
+
+Verdict worstOf(const VehicleDiagnosis& found) {
+  for (const Verdict verdict : {Verdict::kEffectFound, Verdict::kSuspect, Verdict::kUnexplained})
+    for (std::size_t i = 0; i < found.struts.size(); ++i)
+      if (found.verdictOn(i) == verdict) return verdict;
+  return Verdict::kNothingMissing;
+}
+
+/// The search in all struts: what one lacks is named where it explains most, and the others are judged anew without it.
+class VehicleSearch {
+ public:
+  VehicleSearch(Separator separator, std::vector<DiagnoseOptions> options, const KnownModels& models)
+      : separator_(std::move(separator)), options_(std::move(options)), models_(models) {
+    fitGiven();
+    result_.coupling = separator_.coupling();
+    result_.struts.resize(size());
+    result_.drives.resize(size());
+  }
+
+  VehicleDiagnosis run(const std::vector<std::string>& strut_names);
+
+ private:
+  std::size_t size() const { return separator_.models().size(); }
+  const std::function<void(double)>& progress() const { return options_.front().progress; }
+  bool isSettled(std::size_t strut) const {
+    return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
+  }
+  void fitGiven();
+  void fitFound();
+  void judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects);
+  void settleOpen();
+  void reconsider();
+  void dropMarginal();
+
+  Separator separator_;
+  std::vector<DiagnoseOptions> options_;  // by strut
+  const KnownModels& models_;
+  VehicleDiagnosis result_;
+  std::vector<std::size_t> settled_;  // struts that lack something, in the order in which it was found
+  double done_ = 0.0;                 // of the progress
+};
+
+// What models leave tells of noise that struts share only as far as they are those of these drives.
+void VehicleSearch::fitGiven() {
+  if (!separator_.sharesNoise()) return;
+  std::vector<std::size_t> given;
+  for (std::size_t i = 0; i < models_.size(); ++i)
+    if (models_[i]) given.push_back(i);
+  separator_.fitModels(given);
+}
+
+// What a law that was not known yet does was taken for noise that struts share, in part: its numbers come from drives
+// as an estimator sees them.
+void VehicleSearch::fitFound() {
+  if (!separator_.sharesNoise()) return;
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (names(result_.struts[i])) found.push_back(i);
+  const std::vector<std::optional<ModelFit>> fits = separator_.fitModels(found);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    Diagnosis& strut = result_.struts[found[k]];
+    if (!fits[k]) continue;
+    const bool is_complete = strut.model().is_complete;
+    strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
+    strut.final_fit->model.is_complete = is_complete;
+  }
+}
+
+void VehicleSearch::judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
+  DiagnoseOptions options = options_[strut];
+  options.most_effects = most_effects;
+  options.sample_period = separator_.period();
+  options.model = models_.empty() ? std::nullopt : models_[strut];
+  if (progress()) options.progress = [&](double share) { progress()(done_ + share * step); };
+  Diagnosis& found = result_.struts[strut];
+  found = diagnose(drives, options);
+  result_.drives[strut] = std::move(drives);
+  if (found) separator_.setModel(strut, found.base.model);
+  done_ += step;
+}
+
+void VehicleSearch::settleOpen() {
+  while (settled_.size() < size()) {
+    auto separated = separator_.separateForSearch();
+    // What another round takes is not known.
+    const double step = (1.0 - done_) / (static_cast<double>(size() - settled_.size()) + 1.0);
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (isSettled(i)) continue;
+      judge(i, std::move(separated[i]), step, options_[i].most_effects);
+      const Diagnosis& found = result_.struts[i];
+      if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
+    }
+    if (!best) return;
+    // What the others seem to lack may be this effect: they are judged anew without it.
+    settled_.push_back(*best);
+    separator_.setModel(*best, result_.struts[*best].model());
+  }
+}
+
+// What was named first may have been that of a strut which was named later.
+void VehicleSearch::reconsider() {
+  const std::vector<std::size_t> before = std::exchange(settled_, {});
+  const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
+  for (const std::size_t strut : before) {
+    judge(strut, std::move(separator_.separateForSearch()[strut]), step, options_[strut].most_effects);
+    if (!names(result_.struts[strut])) continue;
+    settled_.push_back(strut);
+    separator_.setModel(strut, result_.struts[strut].model());
+  }
+  if (settled_.size() < before.size()) settleOpen();
+}
+
+// A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
+void VehicleSearch::dropMarginal() {
+  double most = 0.0;
+  for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
+  for (const std::size_t strut : settled_)
+    if (explainedPower(result_.struts[strut]) < kWorthHaving * most) judge(strut, result_.drives[strut], 0.0, 0);
+}
+
+VehicleDiagnosis VehicleSearch::run(const std::vector<std::string>& strut_names) {
+  settleOpen();
+  if (settled_.size() > 1) reconsider();
+  dropMarginal();
+  fitFound();
+  result_.verdict = worstOf(result_);
+  result_.summary = summaryOf(result_, strut_names);
+  if (progress()) progress()(1.0);
+  return result_;
+}
+
+}  // namespace
+
+VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
+                                 const std::vector<DiagnoseOptions>& options, const KnownModels& models) {
+  std::vector<DiagnoseOptions> by_strut = optionsByStrut(options, strut_names.size());
+  if (isOneStrut(strut_names)) {
+    if (!models.empty()) by_strut.front().model = models.front();
+    VehicleDiagnosis one{{}, {}, {drivesOfOne(drives)}, {}, {}};
+    one.struts = {diagnose(one.drives.front(), by_strut.front())};
+    one.verdict = one.struts.front().verdict;
+    one.summary = one.struts.front().summary;
+    return one;
+  }
+  Separator separator(drives, strut_names, samplePeriodOf(options), models);
+  if (separator.coupling()) return VehicleSearch(std::move(separator), std::move(by_strut), models).run(strut_names);
+  VehicleDiagnosis nothing;
+  nothing.coupling = separator.coupling();
+  nothing.summary = "The drives " + nothing.coupling.reason + ".";
+  return nothing;
 }
 
 }  // namespace suspension_health_monitor

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "suspension_health_monitor/internal/signal/continuity.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/statistics.h"
-#include "suspension_health_monitor/internal/vehicle/sensor_noise.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
 
 namespace suspension_health_monitor {
 namespace {

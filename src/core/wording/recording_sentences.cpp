@@ -2,11 +2,10 @@
 
 #include <cmath>
 
-#include "suspension_health_monitor/internal/signal/early_readings.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/stream_resampler.h"
 #include "suspension_health_monitor/internal/statistics.h"
-#include "suspension_health_monitor/internal/wording/words.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

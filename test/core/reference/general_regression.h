@@ -1,7 +1,7 @@
 #pragma once
 
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
-#include "suspension_health_monitor/internal/identification/regression_row.h"
+#include "suspension_health_monitor/internal/identification/regression.h"
 
 namespace suspension_health_monitor {
 

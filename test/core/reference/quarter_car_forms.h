@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "suspension_health_monitor/internal/model/quarter_car.h"
+#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/blocks/block_options.h"
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 
 namespace suspension_health_monitor {
 

@@ -3,9 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "suspension_health_monitor/internal/blocks/block_options.h"
-#include "suspension_health_monitor/internal/blocks/modulation.h"
-#include "suspension_health_monitor/internal/blocks/noise_bands.h"
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 
 namespace suspension_health_monitor {
 

@@ -5,7 +5,6 @@
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
-#include "suspension_health_monitor/internal/health/strut_change.h"
 #include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/monitor_report.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "suspension_health_monitor/internal/health/strut_change.h"
+#include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

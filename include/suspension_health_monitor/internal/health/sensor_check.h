@@ -3,7 +3,7 @@
 #include <array>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/limited_mean.h"
+#include "suspension_health_monitor/internal/identification/running_means.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

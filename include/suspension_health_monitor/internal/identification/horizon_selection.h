@@ -1,6 +1,6 @@
 #pragma once
 
-#include "suspension_health_monitor/internal/identification/horizon_integral.h"
+#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
 namespace suspension_health_monitor {
 

@@ -5,10 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/identification/batch_scatter.h"
-#include "suspension_health_monitor/internal/identification/regression_row.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
-#include "suspension_health_monitor/internal/identification/ud_covariance.h"
+#include "suspension_health_monitor/internal/identification/recursive_covariance.h"
+#include "suspension_health_monitor/internal/identification/regression.h"
+#include "suspension_health_monitor/internal/identification/running_means.h"
 
 namespace suspension_health_monitor {
 

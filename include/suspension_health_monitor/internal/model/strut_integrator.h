@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/signal/bandlimited_interpolator.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
@@ -15,7 +15,6 @@ struct StrutState {
   double travel = 0.0;       ///< d [m]
   double travel_rate = 0.0;  ///< v [m/s]
   std::array<Memory, kMostEffects> memory{};
-
 };
 
 /// What the wheel does during one integration step, beyond going on with the speed that it had: the gains of its

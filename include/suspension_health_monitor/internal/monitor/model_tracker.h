@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/running_comparison.h"
+#include "suspension_health_monitor/internal/identification/running_means.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor/strut_identifier.h"
 #include "suspension_health_monitor/internal/monitor_settings.h"

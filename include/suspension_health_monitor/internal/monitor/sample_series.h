@@ -5,10 +5,9 @@
 
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
+#include "suspension_health_monitor/internal/identification/running_means.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
-#include "suspension_health_monitor/internal/signal/continuity.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <boost/circular_buffer.hpp>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
 
 namespace suspension_health_monitor {
 
@@ -30,6 +35,59 @@ inline Alignment alignment(std::string_view name) {
 struct GridOptions {
   Alignment alignment = Alignment::kPaired;
   int fill_samples = 120;  ///< in a row that make one row of the regression; kAuto judges by it
+};
+
+/// Watches how well the pairing of readings with those of a reference does, by their stamps alone, so that a replay
+/// comes to the same judgement at the same reading. It does badly if, in kOutcomes pairs and lone readings of one
+/// stream and the reference,
+/// - the stamps of partners differ by more than kMostOffset T on average, or
+/// - more than kMostLone of the readings find no partner (in a row of more than kLongestRow the rest is a silence of
+///   the other sensor and does not count),
+/// or if kInterruptions interruptions of the series of instants by less than kLongestLoss T come so close together that
+/// the integral filter, which needs `fill` samples in a row, would be full less than half of the time: on average
+/// fill / ln 2 samples apart, as for interruptions at random.
+/// Cost per reading: O(1), no allocation.
+class AlignmentJudge {
+ public:
+  static constexpr int kOutcomes = 200;
+  static constexpr double kMostOffset = 0.1;
+  static constexpr double kMostLone = 0.1;
+  static constexpr int kLongestRow = 3;
+  static constexpr std::size_t kInterruptions = 5;
+  static constexpr int kLongestLoss = 4;
+
+  /// @param period  T > 0.  @param fill  samples in a row that fill the integral filter.
+  /// @param streams  how many there are, the reference included.
+  AlignmentJudge(Stamp period, int fill, std::size_t streams) : period_(period), fill_(fill), outcomes_(streams) {}
+
+  /// There is an instant: every stream has a partner for this reading of the reference.
+  void addInstant(Stamp reference);
+
+  /// A reading of the reference and one of the stream were paired.
+  void addPair(std::size_t stream, Stamp reference, Stamp partner);
+
+  /// A reading of the stream, or of the reference in the stream, found no partner.
+  void addLone(std::size_t stream);
+
+  /// The clock went back.
+  void startNewSeries();
+
+  enum class Verdict { kDoesWell, kApart, kLoneReadings, kInterrupted };
+  Verdict verdict() const { return verdict_; }
+
+ private:
+  struct Outcomes {
+    int pairs = 0, lone = 0, lone_in_a_row = 0;
+    Stamp apart{};  // sum over the pairs
+  };
+  void judge(Outcomes& outcomes);
+
+  Stamp period_;
+  int fill_;
+  Verdict verdict_ = Verdict::kDoesWell;
+  std::vector<Outcomes> outcomes_;                               // by stream
+  std::optional<Stamp> last_;                                    // instant
+  boost::circular_buffer<Stamp> interruptions_{kInterruptions};  // the newest
 };
 
 }  // namespace suspension_health_monitor

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/signal/reading_queue.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/signal/stream_gate.h"
 
 namespace suspension_health_monitor {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/running_mean.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/signal/stream_clock.h"
 
 namespace suspension_health_monitor {

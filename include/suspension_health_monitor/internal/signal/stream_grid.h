@@ -9,9 +9,8 @@
 #include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
-#include "suspension_health_monitor/internal/signal/paired_grid.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
-#include "suspension_health_monitor/internal/signal/resampled_grid.h"
+#include "suspension_health_monitor/internal/signal/grids.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
 

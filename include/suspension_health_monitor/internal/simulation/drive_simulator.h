@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/simulation/body_sway.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_motion.h"

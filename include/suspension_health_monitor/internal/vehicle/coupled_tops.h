@@ -2,13 +2,64 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
+#include "suspension_health_monitor/internal/blocks/strut_equations.h"
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
+
+/// The Fourier integrals of all streams of a vehicle, each on its own stamps, and what they make of a block.
+///
+/// Where the body's IMU tells what a strut's top at r does, (B21) in doc/equations.md,
+///     z'' = a_z + alpha_x r_y - alpha_y r_x + w_z (w_x r_x + w_y r_y) - (w_x^2 + w_y^2) r_z,  alpha = w',
+/// the derivative of the rate w moves onto the modulating function: H_p(alpha) = H_(p+1)(w). The products are channels
+/// of their own. Nothing is differentiated.
+class VehicleSpectra {
+ public:
+  /// @param effects  of the one strut that there is; 0: there is dry friction.
+  VehicleSpectra(const BlockBand& band, const VehicleChannels& vehicle, std::size_t effects);
+
+  /// Takes in a reading; stamps of each sensor increase.  @param time  since half block 0 began [s].
+  /// @param direction  of friction, -1 to 1, with that of a wheel.
+  void push(const VehicleReading& reading, double time, double direction);
+  /// @param forces  of the effects, per body mass.
+  void pushEffects(double time, const double* forces) { effects_.front().push(time, forces); }
+
+  /// The next reading of every stream is its first one.
+  void restart();
+
+  /// @return true if all streams are beyond this half block.
+  bool isPassed(long half) const;
+  /// @return true if nothing is missing in this half block and the one before.
+  bool isWhole(long half) const;
+  /// @return the first half block that no stream has completed.
+  long newestOpen() const;
+
+  /// Fills in what was measured in the block that ends with this half block, but for the neighbours.
+  void fill(std::size_t strut, long half, StrutBlock& block);
+
+ private:
+  enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };
+
+  /// @return true if it is true of every stream.
+  template <class Predicate>
+  bool areAll(const Predicate& predicate) const;
+  void fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block);
+
+  BlockBand band_;
+  VehicleChannels vehicle_;
+  Modulation modulation_;
+  std::vector<FourierIntegrals> wheels_, own_, body_, forces_, effects_;
+  std::vector<std::size_t> own_of_;  // by strut, in own_
+  Eigen::ArrayXcd channel_, derivative_;
+};
 
 /// Where the column of strut j is among the neighbours of strut i, as StrutBlock::neighbours has them: the rate's; the
 /// travel's is the next.

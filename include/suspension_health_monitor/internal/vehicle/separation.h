@@ -7,10 +7,46 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
+#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
+
+/// What a gyro's noise is over that of an accelerometer until both have been heard [s/m]: 0.002 rad/s, 0.03 m/s^2.
+inline constexpr double kUsualGyroNoise = 0.002 / 0.03;
+
+/// @return the noise of a vehicle each of whose struts has two accelerometers of its own, all alike.
+SensorNoise noiseOfOwnSensors(std::size_t num_struts);
+
+/// @return the noise as it is known; where it is empty that of own sensors.
+SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts);
+
+/// @param gyro_noise  standard deviation of a gyro's noise over that of an accelerometer's [s/m].
+/// @return the noise of a vehicle's sensors behind its StrutTops.
+SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise);
+
+/// @return in how many struts a wrong reading of one sensor shows, of the sensor that shows in most.
+std::ptrdiff_t mostStrutsOfASensor(const SensorNoise& noise);
+
+/// @return a drive that is nothing but the noise of all sensors, long enough to tell its size within a percent.
+StrutDrives makeNoiseDrive(const SensorNoise& noise, double period);
+
+/// Takes out of every strut's z'' what the residuals of the others tell of its noise. Where one IMU tells the tops of
+/// several struts, what its gyro reads wrong moves all of them in step, as no force of a strut does: with the
+/// accelerometer there is one reading that is good, and it is shared out among the struts by what they do not explain.
+///
+/// The residual e_j of strut j is what the free run of its model leaves, all of it noise if the model is right. The
+/// noise of strut i is told by sum_jl h_jl e_j(k + l), l of a tenth of a second to either side, by the least squares
+/// whose moments are those of the known noise (Wiener's filter). To fit the strut to what that leaves is to fit all of
+/// them together: seemingly unrelated regressions (Zellner, J. Am. Stat. Ass. 57 (1962), 348-368). What a model lacks
+/// shows in the others, too, until it has been found.
+/// @param drives  struts that are taken apart, one StrutDrives for each drive; their samples at the ends of a stretch
+/// are lost. If a model runs away all stay as they are.
+/// @param noise  of the same struts, as separateNoise() gives it; it becomes that of what is left.
+/// @param models  by strut.
+void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, double period,
+                     const std::vector<StrutModel>& models);
 
 /// @return what all accelerometers of a recorded drive read at its k-th instant, and its known forces.
 VehicleSample sampleOf(const VehicleDrive& drive, std::size_t k);

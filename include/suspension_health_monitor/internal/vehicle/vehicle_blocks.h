@@ -13,8 +13,7 @@
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_spectra.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 

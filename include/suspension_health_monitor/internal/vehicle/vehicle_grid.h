@@ -9,10 +9,10 @@
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
-#include "suspension_health_monitor/internal/vehicle/body_level.h"
+#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_reading.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_streams.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {

@@ -9,8 +9,8 @@
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
-#include "suspension_health_monitor/internal/health/strut_change.h"
-#include "suspension_health_monitor/internal/signal/alignment_judge.h"
+#include "suspension_health_monitor/internal/health/health_rules.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {

@@ -7,7 +7,7 @@
 
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/signal/reject_reason.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
 
 namespace suspension_health_monitor {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/compare.h"
-#include "suspension_health_monitor/internal/record/untestable_effects.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 
 namespace suspension_health_monitor {

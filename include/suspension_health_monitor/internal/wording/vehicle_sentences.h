@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
-#include "suspension_health_monitor/internal/vehicle/body_level.h"
-#include "suspension_health_monitor/internal/vehicle/mount_claim.h"
+#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/vehicle.h"
 

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/identification/running_means.h"
+
+namespace suspension_health_monitor {
+
+/// The covariance P of the recursions (16) and (25), held as P = U D U' with U unit upper triangular and D diagonal.
+/// In this form P is symmetric by construction, and stays positive because the update only multiplies D by positive
+/// numbers; the textbook form (16) loses both to rounding.
+///
+/// Source: G. J. Bierman, Factorization Methods for Discrete Sequential Estimation (1977), ch. V.3.
+/// Cost per update: O(p^2), no allocation.
+class UdCovariance {
+ public:
+  /// P = 0: no parameter may move until it is given a variance.
+  /// @param size  p >= 1, number of parameters.
+  explicit UdCovariance(int size);
+
+  /// P of other parameters: parameter i of the new ones is parameter sources[i] of `before`, or one that is fixed
+  /// still.
+  UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources);
+
+  int size() const { return static_cast<int>(diagonal_.size()); }
+
+  /// Gives parameter i, so far fixed (all its entries of P are 0), the variance `variance` > 0.
+  /// It is also the ceiling of D_i: forgetting never makes a parameter less certain than it was at its start, so that
+  /// hours without excitation cannot overflow.
+  void release(int i, double variance);
+
+  bool isReleased(int i) const { return ceiling_[i] > 0.0; }
+
+  /// One row with regressor phi:
+  ///   P <- (P - P phi phi' P / alpha) / lambda,   alpha = noise + phi' P phi.
+  /// @param noise  weight of the prior against the row: lambda in (16), lambda |epsilon| in (25); > 0.
+  /// @param forgetting_factor  lambda in (0, 1].
+  /// @return the gain P phi / alpha (P before the update), valid until the next call.
+  const Eigen::VectorXd& update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor);
+
+  /// What P is once parameter i is the sum of itself and parameter j: P <- F P F', F = I + e_i e_j'. Parameter i counts
+  /// before j.
+  void addTo(int i, int j) { upper_.row(i) += upper_.row(j); }
+
+  /// P <- factor P, the ceilings with it; factor > 0.
+  void scale(double factor);
+
+  /// @return P_ii.
+  double variance(int i) const { return entry(i, i); }
+
+  /// @return P_ij.
+  double entry(int i, int j) const {
+    double sum = 0.0;
+    for (Eigen::Index k = std::max(i, j); k < diagonal_.size(); ++k) sum += upper_(i, k) * upper_(j, k) * diagonal_[k];
+    return sum;
+  }
+
+  /// @return P, (p, p).
+  Eigen::MatrixXd matrix() const;
+
+ private:
+  Eigen::MatrixXd upper_;     // U, unit diagonal
+  Eigen::VectorXd diagonal_;  // D
+  Eigen::VectorXd ceiling_;
+  Eigen::VectorXd gain_;
+};
+
+/// By how much the variance of a recursive estimate exceeds the one for independent rows: each reading of a sensor is
+/// in 2 L + 1 rows of the integral filter. With d_i the step of the estimate by row i, gain times innovation, and g
+/// their sum over a batch of rows much longer than that, it is E[g^2] / sum E[d^2], parameter by parameter (method of
+/// batch means, e.g. C. J. Geyer, Practical Markov chain Monte Carlo, 1992). A mean over n batches is known as a
+/// variance with n degrees of freedom is: the estimate scatters about it as Student's t, whose variance is n / (n - 2).
+/// Cost per row: O(p), no allocation.
+class BatchScatter {
+ public:
+  /// @param num_parameters  p >= 1.  @param correlated_rows  2 L; 0: the rows are independent.
+  BatchScatter(int num_parameters, int correlated_rows)
+      : correlated_rows_(correlated_rows),
+        batch_rows_(kCorrelationsPerBatch * (correlated_rows + 1)),
+        rows_(-batch_rows_),
+        sum_(Eigen::VectorXd::Zero(num_parameters)),
+        squares_(sum_),
+        ratios_(static_cast<std::size_t>(num_parameters), RunningMean(1.0 - 1.0 / kBatches)) {}
+
+  /// Of other parameters, knowing of those that stay what was known: number i was number sources[i], or is new.
+  BatchScatter(const BatchScatter& before, const std::vector<std::optional<int>>& sources)
+      : BatchScatter(static_cast<int>(sources.size()), before.correlated_rows_) {
+    for (std::size_t i = 0; i < sources.size(); ++i)
+      if (sources[i]) ratios_[i] = before.ratios_[static_cast<std::size_t>(*sources[i])];
+  }
+
+  /// @param gain  of the row, by parameter.
+  void add(const Eigen::VectorXd& gain, double innovation) {
+    if (correlated_rows_ == 0 || ++rows_ <= 0) return;  // the first batch leads from the start values to the strut
+    sum_ += innovation * gain;
+    squares_ += (innovation * gain).cwiseAbs2();
+    if (rows_ < batch_rows_) return;
+    for (Eigen::Index i = 0; i < sum_.size(); ++i)
+      if (squares_[i] > 0.0) ratios_[static_cast<std::size_t>(i)].add(sum_[i] * sum_[i] / squares_[i]);
+    interrupt();
+  }
+
+  /// The next row does not follow the one before.
+  void interrupt() {
+    sum_.setZero();
+    squares_.setZero();
+    rows_ = std::min(rows_, 0);
+  }
+
+  /// @return the factor of parameter i; all rows of a filter alike until there are enough batches.
+  double inflation(int i) const {
+    if (correlated_rows_ == 0) return 1.0;
+    const RunningMean& ratio = ratios_[static_cast<std::size_t>(i)];
+    const double n = ratio.weight();
+    return n < kFewestBatches ? correlated_rows_ + 1.0 : std::max(1.0, kOfEnds * ratio.mean() * n / (n - 2.0));
+  }
+
+ private:
+  static constexpr int kCorrelationsPerBatch = 4;
+  // A correlation that falls in a line is cut at the ends of a batch: a third of one of them is missing in g^2.
+  static constexpr double kOfEnds = 1.0 / (1.0 - 1.0 / (3.0 * kCorrelationsPerBatch));
+  static constexpr double kFewestBatches = 2.9, kBatches = 30.0;  // three; a mean of n squares varies by sqrt(2 / n)
+
+  int correlated_rows_, batch_rows_;
+  int rows_;  // of the batch; below 0: before the first one
+  Eigen::VectorXd sum_, squares_;
+  std::vector<RunningMean> ratios_;
+};
+
+}  // namespace suspension_health_monitor

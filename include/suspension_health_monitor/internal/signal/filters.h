@@ -1,0 +1,121 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <boost/circular_buffer.hpp>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/signal/delay_line.h"
+
+namespace suspension_health_monitor {
+
+/// @param taps  of a LowPass; none: nothing is filtered.
+/// @return the filtered signal. Where the filter reaches beyond an end, the value at the end goes on.
+inline Eigen::VectorXd lowPassed(const std::vector<double>& taps, const Eigen::Ref<const Eigen::VectorXd>& signal) {
+  if (taps.empty() || signal.size() == 0) return signal;
+  const Eigen::Map<const Eigen::VectorXd> h(taps.data(), static_cast<Eigen::Index>(taps.size()));
+  const Eigen::Index size = signal.size(), reach = h.size() / 2;
+  Eigen::VectorXd extended(size + 2 * reach), passed(size);
+  extended << Eigen::VectorXd::Constant(reach, signal[0]), signal, Eigen::VectorXd::Constant(reach, signal[size - 1]);
+  for (Eigen::Index k = 0; k < size; ++k) passed[k] = h.dot(extended.segment(k, h.size()));
+  return passed;
+}
+
+/// The same in place.
+inline void passLow(const std::vector<double>& taps, std::vector<double>& signal) {
+  if (taps.empty()) return;
+  Eigen::Map<Eigen::VectorXd> values(signal.data(), static_cast<Eigen::Index>(signal.size()));
+  values = lowPassed(taps, values);
+}
+
+/// Values of a sampled signal between its samples: a weighted sum of the twelve samples on either side, whose weights
+/// minimise a mean square error over all frequencies up to 0.9 of Nyquist's, the low ones counting most.
+/// A wheel on a rough road is shaken close to that limit, where straight lines and even cubic splines leave errors of
+/// the size of the sensor noise. Here a sine is good to kAccuracy of its amplitude up to 0.5 of Nyquist's frequency, to
+/// 1e-3 up to 0.75, and to 2e-2 at 0.88. Source: least squares fractional delay, Laakso, Valimaki, Karjalainen and
+/// Laine, IEEE Signal Processing Magazine 13 (1996), 30-60, eq. (35)-(38).
+class BandlimitedInterpolator {
+ public:
+  static constexpr int kHalfWidth = 12;
+  static constexpr double kAccuracy = 2e-4;  ///< of a sine's amplitude, up to half of Nyquist's frequency
+
+  /// @param fraction  position between sample k (0) and sample k + 1 (1).
+  explicit BandlimitedInterpolator(double fraction);
+
+  /// @param around  the 2 kHalfWidth samples k - kHalfWidth + 1 .. k + kHalfWidth.
+  double operator()(const double* around) const {
+    double sum = 0.0;
+    for (int i = 0; i < 2 * kHalfWidth; ++i) sum += weights_[static_cast<std::size_t>(i)] * around[i];
+    return sum;
+  }
+
+  /// The integral of the signal from one position to another, weighted by (to - position)^power: power 0 turns an
+  /// acceleration into the gain of velocity, power 1 into the gain of position. In samples; multiply by T^(1 + power).
+  static BandlimitedInterpolator integral(double from, double to, int power);
+
+  const std::vector<double>& weights() const { return weights_; }  ///< one per sample, the oldest first
+
+ private:
+  explicit BandlimitedInterpolator(std::vector<double> weights) : weights_(std::move(weights)) {}
+
+  std::vector<double> weights_;
+};
+
+/// Low-pass filtered signals and the derivatives of others, all of them by the same low-pass filter H: any linear
+/// relation between signals and derivatives at one instant, such as a = alpha x r with alpha = omega', holds between
+/// what comes out as well.
+///
+/// A gyro's white noise grows with the frequency when it is differentiated, so H ends where the motion does, not at
+/// Nyquist's frequency. Both filters are FIR, delay() samples to either side, h symmetrical and g antisymmetrical: they
+/// delay by that exactly, at all frequencies. No FIR filter is exactly j 2 pi f H of another one; the taps are those of
+/// the least mean square of
+/// - H - 1 up to flat(), and H from stop() on,
+/// - T G - j 2 pi f T H at all frequencies, whose mean square counts kSameFilter times that of the others, since an
+///   error of G is one of the relation while an error of H is none,
+/// with H(0) = 1 and G'(0) = j 2 pi: a constant, gravity say, and the rate of a ramp pass exactly.
+/// Then |H - 1| < 1e-3 up to flat(), |H| < 1e-3 from stop() on, and |T G - j 2 pi f T H| < 1e-4 everywhere. Shorter
+/// filters could not do that: the width of the transition is what they need their length for. Cost per instant:
+/// O(signals / T), no allocation.
+class MotionFilter {
+ public:
+  /// Bodies move on their struts below this, wheels shake them up to it [Hz]; slower sampling ends it sooner.
+  static constexpr double kBand = 15.0;
+  static constexpr double kSameFilter = 10.0;
+
+  /// @param period  T > 0.
+  /// @param filtered, differentiated  number of signals of either kind.
+  MotionFilter(Stamp period, std::size_t filtered, std::size_t differentiated);
+
+  struct Instant {
+    Stamp stamp{};
+    std::vector<double> values;      ///< of the filtered signals
+    std::vector<double> rates;       ///< of the differentiated ones, per s
+    std::vector<double> unfiltered;  ///< the signals to filter as they were at this instant
+  };
+
+  /// Takes in the next sample of all signals. One that follows less than half a period after the one before is left
+  /// out; after a gap the filter fills anew.
+  /// @param signals  the filtered ones, then those to differentiate.
+  /// @return the instant delay() samples ago, valid until the next call; nullptr while the filter fills.
+  const Instant* push(Stamp stamp, const std::vector<double>& signals);
+
+  void reset() { stamps_.clear(); }
+
+  int delay() const { return delay_; }                       ///< samples; so late is an instant
+  const Eigen::VectorXd& lowPass() const { return value_; }  ///< taps of H, 2 delay() + 1
+  double flat() const { return flat_; }                      ///< [Hz]
+  double stop() const;                                       ///< [Hz]
+
+ private:
+  Stamp period_;
+  double flat_;
+  int delay_;
+  Eigen::VectorXd value_, rate_;  // taps from the oldest sample to the newest
+  Instant instant_;
+  std::vector<DelayLine> history_;        // of every signal, as many samples as taps
+  boost::circular_buffer<Stamp> stamps_;  // of these samples since the last gap
+};
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "suspension_health_monitor/internal/corner_sample.h"
+
+namespace suspension_health_monitor {
+
+/// Lean of a road of 9 %, steeper ones are rare, of the load or of a careful hand [rad]. An IMU that leans by less
+/// reads so little of the gravity that pitch and roll turn that b0 is wrong by 2 %.
+inline constexpr double kUsualLean = 5.0 / 180.0 * M_PI;
+
+/// @return the angle between two directions [rad].
+double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+/// How the IMU of a body is turned against upright, from the gravity in its readings.
+class BodyLevel {
+ public:
+  /// As it is given: nothing to turn.
+  BodyLevel() = default;
+
+  /// @param accelerations  of a while, in the IMU's axes [m/s^2]. The mean of a few medians is gravity, if it is as
+  /// large as that: a vehicle brakes as much as it pulls away. An IMU that takes gravity off tells nothing.
+  explicit BodyLevel(const std::vector<Eigen::Vector3d>& accelerations);
+
+  /// @return angle between the IMU's z axis and upright [rad].
+  double lean() const { return lean_; }
+
+  /// @return true if the lean is more than that of a road, of the load or of a careful hand, which cannot be told from
+  /// each other and do no harm.
+  bool isTurned() const;
+
+  /// @return of the accelerations, by the size of gravity in them; 1 unless it is off by more than an offset makes.
+  double gain() const { return gain_; }
+
+  /// @return true if gravity was the same in all parts of the while, but for half of that: else the vehicle braked,
+  /// pulled away or went round a bend.
+  bool isSteady() const { return is_steady_; }
+
+  /// @return what turns the IMU's axes upright, by the smallest angle; the identity unless isTurned().
+  Eigen::Matrix3d mount() const { return mount_; }
+
+ private:
+  double lean_ = 0.0, gain_ = 1.0;
+  bool is_steady_ = true;
+  Eigen::Matrix3d mount_ = Eigen::Matrix3d::Identity();
+};
+
+/// Gravity as an IMU reads it: a vehicle neither climbs for good nor pulls away more than it brakes, so that the mean
+/// of many readings is gravity. It is taken of parts of two seconds, whose scatter says how sure it is. Cost per
+/// reading: O(1), no allocation.
+class MountClaim {
+ public:
+  struct Finding {
+    double size = 0.0;         ///< of gravity as it is read [m/s^2]
+    double lean = 0.0;         ///< angle between gravity and the axis that the settings call upward [rad]
+    double lean_stddev = 0.0;  ///< [rad]
+    int axis = 0;              ///< of the IMU that is nearest to gravity: 0 x, 1 y, 2 z
+    bool is_negative = false;  ///< that axis points down
+    bool isLeaning() const;    ///< by more than a road, a load or a careful hand makes
+    bool isOnAnotherAxis() const;
+    bool leansAs(const Finding& other) const;  ///< the two of a strut that is inclined
+    bool isWrongSize() const;                  ///< by more than an offset that is usual makes
+  };
+
+  /// @param acceleration  in the IMU's axes [m/s^2].
+  void add(Stamp stamp, const Eigen::Vector3d& acceleration);
+
+  /// @param up  in the IMU's axes, of length 1.
+  /// @return nothing as long as too little was read, or if the readings are without gravity.
+  std::optional<Finding> find(const Eigen::Vector3d& up) const;
+
+ private:
+  std::optional<Stamp> begin_;  // of the part
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero(), mean_ = Eigen::Vector3d::Zero();
+  double count_ = 0.0, parts_ = 0.0;
+  double scatter_ = 0.0;  // sum of squares of parts' distances from the mean, over both axes across
+};
+
+}  // namespace suspension_health_monitor

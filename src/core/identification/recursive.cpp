@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "suspension_health_monitor/internal/identification/recursive_covariance.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/text.h"
+
+namespace suspension_health_monitor {
+
+UdCovariance::UdCovariance(int size)
+    : upper_(Eigen::MatrixXd::Identity(size, size)),
+      diagonal_(Eigen::VectorXd::Zero(size)),
+      ceiling_(Eigen::VectorXd::Zero(size)),
+      gain_(Eigen::VectorXd::Zero(size)) {}
+
+// The kept rows W of U make P = W D W', which has to become triangular again: modified weighted Gram-Schmidt, Bierman,
+// ch. VI.4.
+UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources)
+    : UdCovariance(static_cast<int>(sources.size())) {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size(), before.size());
+  for (int i = 0; i < size(); ++i)
+    if (const std::optional<int>& source = sources[static_cast<std::size_t>(i)]) {
+      rows.row(i) = before.upper_.row(*source);
+      ceiling_[i] = before.ceiling_[*source];
+    }
+  for (int j = size() - 1; j >= 0; --j) {
+    const Eigen::VectorXd weighted = before.diagonal_.cwiseProduct(rows.row(j).transpose());
+    diagonal_[j] = rows.row(j).dot(weighted);
+    if (diagonal_[j] == 0.0) continue;
+    for (int i = 0; i < j; ++i) {
+      upper_(i, j) = rows.row(i).dot(weighted) / diagonal_[j];
+      rows.row(i) -= upper_(i, j) * rows.row(j);
+    }
+  }
+}
+
+void UdCovariance::release(int i, double variance) {
+  diagonal_[i] = variance;
+  ceiling_[i] = variance;
+}
+
+const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
+  double alpha = noise;
+  for (Eigen::Index j = 0; j < diagonal_.size(); ++j) {
+    auto column = upper_.col(j);
+    const double f = regressor[j] + column.head(j).dot(regressor.head(j));  // entry j of U' phi
+    const double v = diagonal_[j] * f, alpha_before = alpha;
+    alpha += f * v;
+    diagonal_[j] = std::min(diagonal_[j] * alpha_before / (alpha * forgetting_factor), ceiling_[j]);
+    gain_[j] = v;
+    for (Eigen::Index i = 0; i < j; ++i) {
+      const double before = column[i];
+      column[i] -= f / alpha_before * gain_[i];
+      gain_[i] += before * v;
+    }
+  }
+  gain_ /= alpha;
+  return gain_;
+}
+
+void UdCovariance::scale(double factor) {
+  diagonal_ *= factor;
+  ceiling_ *= factor;
+}
+
+Eigen::MatrixXd UdCovariance::matrix() const { return upper_ * diagonal_.asDiagonal() * upper_.transpose(); }
+
+void RecursiveOptions::validate() const {
+  requireAboveZero("forgetting_factor", forgetting_factor, "", 1.0);
+  requireAboveZero("initial_variance", initial_variance, "");
+  if (correlated_rows < 0) refuse("correlated_rows", correlated_rows, "", "at least 0");
+}
+
+RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOptions& options)
+    : options_(options),
+      theta_(Eigen::VectorXd::Zero(num_parameters)),
+      covariance_(num_parameters),
+      scatter_(num_parameters, std::max(0, options.correlated_rows)),
+      means_(options.forgetting_factor) {
+  options.validate();
+}
+
+double RecursiveEstimator::innovate(const RegressionRow& row) {
+  const double innovation = row.output - row.regressor.dot(theta_);
+  means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
+  return innovation;
+}
+
+void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
+  options_.forgetting_factor = forgetting_factor;
+  means_.setForgettingFactor(forgetting_factor);
+}
+
+void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
+  const double lambda = options_.forgetting_factor;
+  const Eigen::VectorXd& gain = covariance_.update(row.regressor, lambda / weight, lambda);
+  scatter_.add(gain, innovation);
+  theta_ += gain * innovation;
+}
+
+void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {
+  for (int i = 0; i < numParameters(); ++i) {
+    if (covariance_.isReleased(i) || regressor[i] == 0.0) continue;
+    const bool relative = options_.initial_variance_rule == InitialVariance::kRelative;
+    if (theta_[i] != 0.0 && residual_variance > 0.0)
+      covariance_.release(i, theta_[i] * theta_[i] / residual_variance);
+    else
+      covariance_.release(i, unit * options_.initial_variance / (relative ? regressor[i] * regressor[i] : 1.0));
+    ++num_released_;
+  }
+}
+
+void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns) {
+  const Eigen::VectorXd before = theta_;
+  theta_.resize(static_cast<Eigen::Index>(columns.size()));
+  std::vector<std::optional<int>> sources;
+  for (const ColumnOrigin& column : columns) {
+    theta_[static_cast<Eigen::Index>(sources.size())] = column.before ? before[*column.before] : column.start;
+    sources.push_back(column.before);
+  }
+  covariance_ = UdCovariance(covariance_, sources);
+  scatter_ = BatchScatter(scatter_, sources);
+  num_released_ = 0;
+  for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;
+}
+
+double RecursiveLeastSquares::update(const RegressionRow& row) {
+  if (row.saysNothing()) return row.output;
+  drift();
+  const double innovation = innovate(row);
+  releaseExcited(row, meanSquareResidual(), 1.0);
+  correct(row, innovation, 1.0);
+  return innovation;
+}
+
+RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive,
+                                               const LeastAbsoluteOptions& options)
+    : RecursiveEstimator(num_parameters, recursive), absolute_(options), weights_(recursive.forgetting_factor) {}
+
+double RecursiveLeastAbsolute::update(const RegressionRow& row) {
+  if (row.saysNothing()) return row.output;
+  drift();
+  const double innovation = innovate(row);
+  const double weight = weigh(innovation);
+  if (!leads()) {
+    releaseExcited(row, meanSquareResidual(), 1.0);
+    correct(row, innovation, 1.0);
+    if (++rows_ == absolute_.start_rows) takeOver();
+  } else {
+    releaseExcited(row, meanAbsoluteResidual(), absolute_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
+    correct(row, innovation, weight);
+  }
+  return innovation;
+}
+
+double RecursiveLeastAbsolute::weigh(double innovation) {
+  const double smallest =
+      smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
+  const double weight = 1.0 / std::max(std::abs(innovation), smallest);
+  if (!std::isfinite(weight)) return weight;
+  const double score = weight * innovation;
+  weights_.setForgettingFactor(forgettingFactor());
+  weights_.add({score * score, weight});
+  return weight;
+}
+
+void RecursiveLeastAbsolute::beginAgain(const RecursiveLeastSquares& least_squares) {
+  static_cast<RecursiveEstimator&>(*this) = least_squares;
+  weights_ = RunningMeans<kNumMeans>(forgettingFactor());
+  rows_ = absolute_.start_rows;
+  takeOver();
+}
+
+void RecursiveLeastAbsolute::takeOver() {
+  // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
+  if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
+  scatter_.interrupt();  // rows are weighted from now on
+}
+
+RunningComparison::RunningComparison(double forgetting_factor)
+    : means_(forgetting_factor),
+      residual_(forgetting_factor),
+      measured_(forgetting_factor),
+      worse_(forgetting_factor),
+      half_weight_(0.5 / (1.0 - std::min(forgetting_factor, 1.0 - 1e-12))) {}
+
+void RunningComparison::add(double measured, double predicted) {
+  const double residual = measured - predicted;
+  means_.add({residual, residual * residual, measured, measured * measured});
+  residual_.add(residual);
+  measured_.add(measured);
+  worse_.add(std::abs(residual - residual_.mean()) > std::abs(measured - measured_.mean()) ? 1.0 : 0.0);
+}
+
+double RunningComparison::deviation(Mean value, Mean square) const {
+  return std::sqrt(std::max(0.0, means_.mean(square) - means_.mean(value) * means_.mean(value)));
+}
+
+double RunningComparison::rmse() const { return deviation(kResidual, kSquareResidual); }
+
+double RunningComparison::fitPercent(double rmse) const {
+  const double spread = deviation(kMeasured, kSquareMeasured);
+  return spread > 0.0 ? 100.0 * (1.0 - rmse / spread) : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace suspension_health_monitor

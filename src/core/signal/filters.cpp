@@ -1,0 +1,152 @@
+#include "suspension_health_monitor/internal/signal/filters.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/signal/readings.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+// Where the energy of a wheel's motion is counts most; near Nyquist's frequency an error is cheaper than the length
+// that would avoid it. Bands from 0, as shares of Nyquist's frequency, and their weights.
+struct Band {
+  double edge, weight;
+};
+constexpr Band kBands[] = {{0.5, 1.0}, {0.75, 1e-2}, {0.9, 1e-4}};
+constexpr double kRidge = 1e-12;  // keeps the weights small where the bands leave them free
+
+double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
+
+// Weighted mean of cos(omega x) over the bands.
+double bandMean(double x) {
+  double sum = 0.0;
+  for (const Band& band : kBands) sum += band.weight * band.edge * sinc(band.edge * M_PI * x);
+  return sum;
+}
+
+// Mean over the band of |sum_i h_i e^(j w i) - e^(j w D)|^2 is a quadratic form in h with these entries.
+Eigen::LDLT<Eigen::MatrixXd> factoredGram(Eigen::Index n) {
+  Eigen::MatrixXd gram(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) gram(i, j) = bandMean(static_cast<double>(i - j));
+    gram(i, i) += kRidge;
+  }
+  return gram.ldlt();
+}
+
+}  // namespace
+
+BandlimitedInterpolator::BandlimitedInterpolator(double fraction) : weights_(2 * kHalfWidth) {
+  constexpr Eigen::Index n = 2 * kHalfWidth;
+  static const Eigen::LDLT<Eigen::MatrixXd> gram = factoredGram(n);
+  Eigen::VectorXd target(n);
+  const double wanted = kHalfWidth - 1 + fraction;
+  for (Eigen::Index i = 0; i < n; ++i) target[i] = bandMean(static_cast<double>(i) - wanted);
+  const Eigen::VectorXd solution = gram.solve(target);
+  // A constant, gravity say, comes out exactly.
+  for (Eigen::Index i = 0; i < n; ++i) weights_[static_cast<std::size_t>(i)] = solution[i] / solution.sum();
+}
+
+BandlimitedInterpolator BandlimitedInterpolator::integral(double from, double to, int power) {
+  using Gauss = boost::math::quadrature::gauss<double, 10>;
+  std::vector<double> weights(2 * kHalfWidth, 0.0);
+  for (std::size_t n = 0; n < Gauss::abscissa().size(); ++n)
+    for (const double side : {-1.0, 1.0}) {
+      const double position = from + (to - from) * (1.0 + side * Gauss::abscissa()[n]) / 2.0;
+      const BandlimitedInterpolator node(position);
+      for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] += (to - from) / 2.0 * Gauss::weights()[n] * std::pow(to - position, power) * node.weights_[i];
+    }
+  return BandlimitedInterpolator(weights);
+}
+
+namespace {
+
+// Of the sampling rate, of a filter of kShortest samples to either side; longer ones are narrower by as much.
+constexpr double kWidestFlat = 0.24, kWidestStop = 0.42;
+constexpr int kShortest = 12;
+constexpr int kFrequencies = 2000;  // at which the errors are summed: many more than the taps can tell apart
+
+struct FilterPair {
+  Eigen::VectorXd value, rate;  // taps from the oldest sample to the newest; the rate per sample
+};
+
+/// With q = 2 pi f T: H = h_0 + 2 sum_n h_n cos(n q), T G = 2j sum_n g_n sin(n q).
+/// @param flat, stop  in cycles per sample.
+FilterPair makePair(int delay, double flat, double stop) {
+  const int unknowns = 2 * delay + 1;  // h_0 .. h_delay, g_1 .. g_delay
+  const Eigen::ArrayXd frequencies = Eigen::ArrayXd::LinSpaced(kFrequencies + 1, 0.0, 0.5),
+                       q = 2.0 * M_PI * frequencies;
+  Eigen::MatrixXd low_pass = Eigen::MatrixXd::Zero(q.size(), unknowns), difference = low_pass;
+  low_pass.col(0).setOnes();
+  for (int n = 1; n <= delay; ++n) low_pass.col(n) = 2.0 * (n * q).cos();
+  difference.leftCols(delay + 1) = -(q.matrix().asDiagonal() * low_pass.leftCols(delay + 1));
+  for (int n = 1; n <= delay; ++n) difference.col(delay + n) = 2.0 * (n * q).sin();
+  const Eigen::VectorXd passes = (frequencies <= flat).cast<double>(), stops = (frequencies >= stop).cast<double>();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns + 2, unknowns + 2);
+  normal.topLeftCorner(unknowns, unknowns) = low_pass.transpose() * (passes + stops).asDiagonal() * low_pass +
+                                             MotionFilter::kSameFilter * difference.transpose() * difference;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns + 2);
+  right.head(unknowns) = low_pass.transpose() * passes;
+  // Lagrange's conditions: sum of h is 1, and sum of n g_n over both sides.
+  normal(unknowns, 0) = 1.0;
+  for (int n = 1; n <= delay; ++n) {
+    normal(unknowns, n) = 2.0;
+    normal(unknowns + 1, delay + n) = 2.0 * n;
+  }
+  normal.rightCols(2) = normal.bottomRows(2).transpose();
+  right.tail<2>().setOnes();
+  const Eigen::VectorXd taps = normal.partialPivLu().solve(right);
+
+  FilterPair pair{Eigen::VectorXd(2 * delay + 1), Eigen::VectorXd(2 * delay + 1)};
+  pair.value[delay] = taps[0];
+  pair.rate[delay] = 0.0;
+  for (int n = 1; n <= delay; ++n) {
+    pair.value[delay + n] = pair.value[delay - n] = taps[n];
+    pair.rate[delay + n] = taps[delay + n];
+    pair.rate[delay - n] = -taps[delay + n];
+  }
+  return pair;
+}
+
+}  // namespace
+
+MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t differentiated)
+    : period_(period),
+      flat_(std::min(kBand, kWidestFlat / toSeconds(period))),
+      delay_(static_cast<int>(std::ceil(kShortest * kWidestFlat / (flat_ * toSeconds(period)) - 1e-9))),
+      instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
+      history_(filtered + differentiated, DelayLine(2 * delay_ + 1)),
+      stamps_(static_cast<std::size_t>(2 * delay_ + 1)) {
+  const FilterPair pair = makePair(delay_, flat_ * toSeconds(period), stop() * toSeconds(period));
+  value_ = pair.value;
+  rate_ = pair.rate / toSeconds(period);
+}
+
+double MotionFilter::stop() const { return flat_ * kWidestStop / kWidestFlat; }
+
+const MotionFilter::Instant* MotionFilter::push(Stamp stamp, const std::vector<double>& signals) {
+  const Continuity follows = stamps_.empty() ? Continuity::kGap : continuity(stamp - stamps_.back(), period_);
+  if (follows == Continuity::kTooSoon) return nullptr;
+  if (follows != Continuity::kContinues) stamps_.clear();
+  stamps_.push_back(stamp);
+  for (std::size_t i = 0; i < signals.size(); ++i) history_[i].push(signals[i]);
+  if (!stamps_.full()) return nullptr;
+
+  const auto windowOf = [this](std::size_t signal) {
+    return Eigen::Map<const Eigen::VectorXd>(history_[signal].window(), value_.size());
+  };
+  const std::size_t filtered = instant_.values.size();
+  for (std::size_t i = 0; i < filtered; ++i) {
+    instant_.values[i] = value_.dot(windowOf(i));
+    instant_.unfiltered[i] = windowOf(i)[delay_];
+  }
+  for (std::size_t i = 0; i < instant_.rates.size(); ++i) instant_.rates[i] = rate_.dot(windowOf(filtered + i));
+  instant_.stamp = stamps_[static_cast<std::size_t>(delay_)];
+  return &instant_;
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,67 @@
+#include "suspension_health_monitor/internal/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace suspension_health_monitor {
+namespace {
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string suggestNearest(const std::string& name, const std::vector<std::string>& known) {
+  const auto begins = [&](const std::string& other) { return other.compare(0, name.size(), name) == 0; };
+  const bool is_cut_short = std::count_if(known.begin(), known.end(), begins) == 1;
+  const auto difference = [&](const std::string& other) {  // share of the letters
+    if (is_cut_short && begins(other)) return 0.0;
+    return static_cast<double>(editDistance(name, other)) / static_cast<double>(std::max(name.size(), other.size()));
+  };
+  const auto nearest = std::min_element(known.begin(), known.end(),
+                                        [&](const auto& a, const auto& b) { return difference(a) < difference(b); });
+  if (nearest == known.end() || difference(*nearest) > 0.5) return {};
+  return "; the nearest known name is " + *nearest;
+}
+
+std::string join(const std::vector<std::string>& names, const std::string& separator) {
+  std::string text;
+  for (const std::string& name : names)
+    if (!name.empty()) text += (text.empty() ? "" : separator) + name;
+  return text;
+}
+
+std::string formatted(const char* format, ...) {
+  std::va_list values, again;
+  va_start(values, format);
+  va_copy(again, values);
+  std::string text(static_cast<std::size_t>(std::vsnprintf(nullptr, 0, format, values)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  va_end(values);
+  return text;
+}
+
+std::string sizeInPercent(double change) { return formatted("%ld %%", std::lround(100.0 * std::abs(change))); }
+
+std::string percent(double share) { return formatted("%.*f %%", share < 0.01 ? 1 : 0, 100.0 * share); }
+
+std::string describeEnough(double seconds) {
+  return formatted(" (%.3g s in one piece are enough)", std::ceil(10.0 * seconds) / 10.0);
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,239 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <random>
+
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr std::size_t kDriveSamples = 1 << 14;  // the rms of so many has an error of 0.6 %
+constexpr double kSmall = 1e-3;                 // of a reading: products of two of them are nothing
+
+/// What follows one wrong reading of a stream.
+/// @param tops  new ones.
+StrutDrives responseOf(StrutTops tops, std::size_t num_struts, Stamp period, std::size_t num_streams,
+                       std::size_t stream, double deviation) {
+  StrutDrives response(num_struts);
+  const int fill = 2 * tops.delay();
+  for (int k = 0; k <= 2 * fill; ++k) {
+    GridInstant instant{k * period, std::vector<double>(num_streams, 0.0), std::vector<bool>(num_streams, true)};
+    if (k == fill) instant.values[stream] = kSmall;
+    const VehicleSample* sample = tops.push(instant);
+    for (std::size_t i = 0; sample != nullptr && i < response.size(); ++i) {
+      CornerSample& of_strut = response[i].samples.emplace_back(sample->ofStrut(i));
+      of_strut.sprung_acceleration *= deviation / kSmall;
+      of_strut.unsprung_acceleration *= deviation / kSmall;
+    }
+  }
+  return response;
+}
+
+}  // namespace
+
+SensorNoise noiseOfOwnSensors(std::size_t num_struts) {
+  SensorNoise noise;
+  for (std::size_t i = 0; i < num_struts; ++i)
+    for (const CornerSample wrong : {CornerSample{{}, 1.0, 0.0}, CornerSample{{}, 0.0, 1.0}}) {
+      StrutDrives& response = noise.emplace_back(num_struts, Drive{{CornerSample{}}});
+      response[i].samples.front() = wrong;
+    }
+  return noise;
+}
+
+SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts) {
+  return noise.empty() ? noiseOfOwnSensors(num_struts) : noise;
+}
+
+SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise) {
+  SensorNoise noise;
+  std::size_t num_streams = channels.body_imu ? *channels.body_imu + 6 : 0;
+  for (const VehicleChannels::Strut& strut : channels.struts)
+    num_streams = std::max({num_streams, strut.unsprung + 1, strut.sprung.value_or(0) + 1});
+  for (const std::size_t force : channels.known_forces) num_streams = std::max(num_streams, force + 1);
+  const StrutTops tops(period, channels);
+  const auto add = [&](std::size_t stream, double deviation) {
+    noise.push_back(responseOf(tops, channels.struts.size(), period, num_streams, stream, deviation));
+  };
+  bool needs_body = false;
+  for (const VehicleChannels::Strut& strut : channels.struts) {
+    add(strut.unsprung, 1.0);
+    if (strut.sprung) add(*strut.sprung, 1.0);
+    needs_body |= !strut.sprung;
+  }
+  for (std::size_t axis = 0; needs_body && axis < 6; ++axis)
+    add(*channels.body_imu + axis, axis < 3 ? 1.0 : gyro_noise);
+  return noise;
+}
+
+std::ptrdiff_t mostStrutsOfASensor(const SensorNoise& noise) {
+  const auto shows = [](const Drive& strut) {
+    return std::any_of(strut.samples.begin(), strut.samples.end(), [](const CornerSample& sample) {
+      return sample.sprung_acceleration != 0.0 || sample.unsprung_acceleration != 0.0;
+    });
+  };
+  std::ptrdiff_t most = 0;
+  for (const StrutDrives& response : noise)
+    most = std::max(most, std::count_if(response.begin(), response.end(), shows));
+  return most;
+}
+
+StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {
+  StrutDrives drive(noise.front().size());
+  for (Drive& strut : drive)
+    for (std::size_t k = 0; k < kDriveSamples; ++k)
+      strut.samples.push_back({static_cast<int>(k) * fromSeconds(period), 0.0, 0.0});
+  std::mt19937_64 engine;
+  std::normal_distribution<double> normal;
+  for (const StrutDrives& response : noise) {
+    const std::size_t length = response.front().samples.size();
+    for (std::size_t k = 0; k < kDriveSamples + length - 1; ++k) {
+      const double reading = normal(engine);
+      for (std::size_t i = 0; i < drive.size(); ++i)
+        for (std::size_t l = k < kDriveSamples ? 0 : k - kDriveSamples + 1; l < length && l <= k; ++l) {
+          const CornerSample& after = response[i].samples[l];
+          CornerSample& sample = drive[i].samples[k - l];
+          sample.sprung_acceleration += reading * after.sprung_acceleration;
+          sample.unsprung_acceleration += reading * after.unsprung_acceleration;
+        }
+    }
+  }
+  return drive;
+}
+
+namespace {
+
+constexpr double kReach = 0.1;  // [s]; twice as far takes 2 % more
+// Errors of the models, which are in the residuals, too, in the unit of the noise: twice that of an accelerometer.
+// With less, sums of residuals that have next to no noise carry over into each strut what the ratios are off by.
+constexpr double kModelVariance = 4.0;
+
+/// What a strut's free run leaves, sample by sample of a drive.
+struct Left {
+  Eigen::VectorXd values;          ///< 0 where nothing is known
+  std::vector<Eigen::Index> room;  ///< known ones to either side and this one; 0: not known itself
+};
+
+std::optional<Left> leftBy(const StrutModel& model, const Drive& drive, double period) {
+  const std::deque<DriveRecord> records = makeRecords({drive}, period, model);
+  const auto initial = estimateInitialStates(pointersTo(records), model);
+  if (!initial) return std::nullopt;
+  Left left{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(drive.samples.size())),
+            std::vector<Eigen::Index>(drive.samples.size(), 0)};
+  std::vector<double> predicted;
+  std::size_t at = 0, s = 0;
+  for (const DriveSegment* segment : segmentsOf(pointersTo(records))) {
+    if (!runFree(model, *segment, (*initial)[s++], predicted)) return std::nullopt;
+    while (drive.samples[at].stamp != segment->stamps.front()) ++at;
+    const auto size = static_cast<Eigen::Index>(segment->size());
+    for (Eigen::Index k = 0; k < size; ++k, ++at) {
+      const auto sample = static_cast<std::size_t>(k);
+      left.values[static_cast<Eigen::Index>(at)] = segment->sprung[sample] - predicted[sample];
+      left.room[at] = 1 + std::min(k, size - 1 - k);
+    }
+  }
+  return left;
+}
+
+/// Of all struts of a drive; empty if a model runs away.
+std::vector<Left> leftOf(const StrutDrives& drive, double period, const std::vector<StrutModel>& models) {
+  std::vector<Left> all;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    std::optional<Left> left = leftBy(models[i], drive[i], period);
+    if (!left) return {};
+    all.push_back(std::move(*left));
+  }
+  return all;
+}
+
+/// E[a(k) b(k + lag)].
+class Covariances {
+ public:
+  Covariances(const std::vector<Left>& noise, Eigen::Index most) : most_(most), num_(noise.size()) {
+    const Eigen::Index size = noise.front().values.size();
+    for (const Left& a : noise)
+      for (const Left& b : noise)
+        for (Eigen::Index lag = -most; lag <= most; ++lag)
+          values_.push_back(a.values.segment(most, size - 2 * most).dot(b.values.segment(most + lag, size - 2 * most)) /
+                            static_cast<double>(size));
+  }
+
+  double operator()(std::size_t a, std::size_t b, Eigen::Index lag) const {
+    return values_[(a * num_ + b) * static_cast<std::size_t>(2 * most_ + 1) + static_cast<std::size_t>(lag + most_)];
+  }
+
+ private:
+  Eigen::Index most_;
+  std::size_t num_;
+  std::vector<double> values_;
+};
+
+/// h of one strut: a column for each of the others, rows l = -reach .. reach.
+using Weights = Eigen::MatrixXd;
+
+Weights weightsOf(std::size_t strut, std::size_t num_struts, const Covariances& covariance, Eigen::Index reach) {
+  std::vector<std::size_t> others;
+  for (std::size_t j = 0; j < num_struts; ++j)
+    if (j != strut) others.push_back(j);
+  const Eigen::Index lags = 2 * reach + 1, unknowns = lags * static_cast<Eigen::Index>(others.size());
+  Eigen::MatrixXd moments(unknowns, unknowns);
+  Eigen::VectorXd target(unknowns);
+  for (Eigen::Index a = 0; a < unknowns; ++a) {
+    const std::size_t of_a = others[static_cast<std::size_t>(a / lags)];
+    target[a] = covariance(of_a, strut, reach - a % lags);
+    for (Eigen::Index b = 0; b < unknowns; ++b)
+      moments(a, b) = covariance(of_a, others[static_cast<std::size_t>(b / lags)], b % lags - a % lags);
+  }
+  moments.diagonal().array() += kModelVariance;
+  const Eigen::VectorXd solution = moments.llt().solve(target);
+  return Eigen::Map<const Weights>(solution.data(), lags, static_cast<Eigen::Index>(others.size()));
+}
+
+/// @return the samples of which all is known that the others tell of their noise, without it.
+Drive without(const Weights& weights, std::size_t strut, const Drive& drive, const std::vector<Left>& left) {
+  const Eigen::Index reach = weights.rows() / 2;
+  Drive cleaned;
+  cleaned.low_pass.taps = drive.low_pass.taps;
+  for (std::size_t k = 0; k < drive.samples.size(); ++k) {
+    double told = 0.0;
+    bool is_known = true;
+    Eigen::Index column = 0;
+    for (std::size_t j = 0; j < left.size() && is_known; ++j) {
+      if (j == strut) continue;
+      is_known = left[j].room[k] > reach;
+      if (is_known)
+        told += weights.col(column++).dot(left[j].values.segment(static_cast<Eigen::Index>(k) - reach, weights.rows()));
+    }
+    if (!is_known) continue;
+    cleaned.samples.push_back(drive.samples[k]);
+    cleaned.samples.back().sprung_acceleration -= told;
+    if (!drive.low_pass.unfiltered.empty()) cleaned.low_pass.unfiltered.push_back(drive.low_pass.unfiltered[k]);
+  }
+  return cleaned;
+}
+
+}  // namespace
+
+void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, double period,
+                     const std::vector<StrutModel>& models) {
+  std::vector<StrutModel> linear;
+  for (const StrutModel& model : models) linear.push_back({model.damping_to_mass, model.stiffness_to_mass, {}, {}});
+  const std::vector<Left> of_noise = leftOf(noise, period, linear);
+  std::vector<std::vector<Left>> of_drives;
+  for (const StrutDrives& drive : drives) of_drives.push_back(leftOf(drive, period, models));
+  const auto runs_away = [](const std::vector<Left>& left) { return left.empty(); };
+  if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
+  const auto reach = static_cast<Eigen::Index>(std::lround(kReach / period));
+  const Covariances covariance(of_noise, 2 * reach);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    const Weights weights = weightsOf(i, noise.size(), covariance, reach);
+    for (std::size_t d = 0; d < drives.size(); ++d) drives[d][i] = without(weights, i, drives[d][i], of_drives[d]);
+    noise[i] = without(weights, i, noise[i], of_noise);
+  }
+}
+
+}  // namespace suspension_health_monitor
