@@ -163,19 +163,28 @@ TEST(BaselineLearner, OfLessThanAWindowIsNoSurerThanAnEstimate) {
   EXPECT_NEAR(learned->damping_to_mass_stddev, 0.02, 1e-12);
 }
 
-// Values that alternate by 0.06 either way are 3 standard deviations of 0.02 apart: sqrt(0.06^2 - 0.02^2) more than
-// they say.
+// Values that alternate by 0.06 either way have a variance of 0.06^2, of which 0.02^2 is their own. 25 windows tell it:
+// Student's distribution has 25 / 23 of it.
 TEST(BaselineLearner, KnowsByHowMuchHealthyWindowsScatter) {
   BaselineLearner learner(100.0);
   std::optional<Baseline> learned;
   for (int k = 0; !learned; ++k) learned = learner.add(fromSeconds(5.0 + k), estimate(k % 2 ? 3.06 : 2.94, 13.8), 1.0);
-  const double scatter = std::sqrt(0.06 * 0.06 - 0.02 * 0.02);
-  EXPECT_NEAR(learned->damping_scatter, scatter, 0.05 * scatter);
+  const double scatter = std::sqrt(0.06 * 0.06 * 25.0 / 23.0 - 0.02 * 0.02);
+  EXPECT_NEAR(learned->damping_scatter, scatter, 0.02 * scatter);
   EXPECT_EQ(learned->stiffness_scatter, 0.0);
   EXPECT_NEAR(learned->damping_to_mass_stddev, 0.06 / 5.0, 0.05 * 0.06 / 5.0);
   const ChangeFromBaseline changed = changeFrom(*learned, estimate(3.0, 13.8));
   ASSERT_TRUE(changed.change.damping);
-  EXPECT_NEAR(changed.change.damping->stddev, std::hypot(0.06, 0.06 / 5.0) / 3.0, 0.002);
+  EXPECT_NEAR(changed.change.damping->stddev, std::hypot(scatter, 0.02, 0.06 / 5.0) / 3.0, 0.02 * scatter / 3.0);
+}
+
+// Each half is steady, and they are too near to each other for a drift: the road between them has changed.
+TEST(BaselineLearner, TakesTheDifferenceOfItsHalvesAsScatter) {
+  BaselineLearner learner(12.0);
+  std::optional<Baseline> learned;
+  for (int k = 0; !learned; ++k) learned = learner.add(fromSeconds(5.0 + k), estimate(k < 6 ? 3.0 : 3.08, 13.8), 1.0);
+  EXPECT_NEAR(*learned->damping_to_mass, 3.04, 1e-9);
+  EXPECT_NEAR(learned->damping_scatter, std::sqrt(0.04 * 0.04 * 3.0 - 0.02 * 0.02), 1e-9);  // of three windows
 }
 
 TEST(BaselineLearner, TakesNoTwoDrivesForOne) {

@@ -87,11 +87,17 @@ void BaselineLearner::Parameter::add(double value, double its_stddev, double gai
   stddev = std::sqrt(square(stddev) + gain * (square(its_stddev) - square(stddev)));
 }
 
-// If that is no chance: of n windows a variance is known to sqrt(2 / n) of itself.
+BaselineLearner::Parameter BaselineLearner::Parameter::with(const Parameter& other, double explained) const {
+  Parameter both;
+  both.mean = (mean + other.mean) / 2.0;
+  both.stddev = std::sqrt((square(stddev) + square(other.stddev)) / 2.0);
+  both.variance = (variance + other.variance) / 2.0 + square(other.mean - mean - explained) / 4.0;
+  return both;
+}
+
 double BaselineLearner::Parameter::scatter(double windows) const {
-  const double expected = square(stddev);
-  const bool is_chance = variance <= expected * (1.0 + normalQuantile(0.025) * std::sqrt(2.0 / windows));
-  return is_chance ? 0.0 : std::sqrt(variance - expected);
+  const double degrees = std::max(windows, 3.0);  // fewer have no variance
+  return std::sqrt(std::max(0.0, variance * degrees / (degrees - 2.0) - square(stddev)));
 }
 
 void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_seconds) {
@@ -133,7 +139,7 @@ std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& e
 }
 
 double BaselineLearner::Half::varianceOfMean(const Parameter& parameter) const {
-  return square(parameter.spread(windows())) * std::min(1.0, 1.0 / windows());
+  return square(parameter.spread()) * std::min(1.0, 1.0 / windows());
 }
 
 bool BaselineLearner::drifts() const {
@@ -170,22 +176,25 @@ Baseline BaselineLearner::result(Stamp to) const {
   const auto& [a, b] = halves_;
   const auto middle = [](double first, double second) { return (first + second) / 2.0; };
   // Overlapping windows share readings; what friction's law leaves unknown no time removes.
-  const double share = std::sqrt(std::min(1.0, middle(a.window, b.window) / seconds_));
-  const auto rms = [&](double first, double second) { return std::sqrt(middle(square(first), square(second))); };
-  const auto stddev = [&](double first, double second) { return share * rms(first, second); };
+  const double windows = std::max(1.0, seconds_ / middle(a.window, b.window));
+  const double share = 1.0 / std::sqrt(windows);
   Baseline baseline;
-  baseline.damping_to_mass = middle(a.damping.mean, b.damping.mean);
-  baseline.stiffness_to_mass = middle(a.stiffness.mean, b.stiffness.mean);
-  baseline.damping_scatter = rms(a.damping.scatter(a.windows()), b.damping.scatter(b.windows()));
-  baseline.stiffness_scatter = rms(a.stiffness.scatter(a.windows()), b.stiffness.scatter(b.windows()));
-  baseline.damping_to_mass_stddev = stddev(a.damping.spread(a.windows()), b.damping.spread(b.windows()));
-  baseline.stiffness_to_mass_stddev = stddev(a.stiffness.spread(a.windows()), b.stiffness.spread(b.windows()));
+  baseline.temperature = temperature();
+  const double warmed =
+      baseline.temperature ? baseline.temperature->per_kelvin * (*b.celsius - *a.celsius) * a.damping.mean : 0.0;
+  const Parameter damping = a.damping.with(b.damping, warmed), stiffness = a.stiffness.with(b.stiffness, 0.0);
+  baseline.damping_to_mass = damping.mean;
+  baseline.stiffness_to_mass = stiffness.mean;
+  baseline.damping_scatter = damping.scatter(windows);
+  baseline.stiffness_scatter = stiffness.scatter(windows);
+  baseline.damping_to_mass_stddev = share * damping.spread();
+  baseline.stiffness_to_mass_stddev = share * stiffness.spread();
   if (a.friction && b.friction)
     baseline.friction =
-        DryFriction{middle(a.friction->force, b.friction->force), stddev(a.friction->stddev, b.friction->stddev),
+        DryFriction{middle(a.friction->force, b.friction->force),
+                    share * std::sqrt(middle(square(a.friction->stddev), square(b.friction->stddev))),
                     middle(a.friction->damping_gain, b.friction->damping_gain),
                     square(share) * middle(a.friction->damping_covariance, b.friction->damping_covariance)};
-  baseline.temperature = temperature();
   baseline.learned = true;
   baseline.from = from_;
   baseline.to = to;

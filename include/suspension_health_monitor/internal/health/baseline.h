@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/health/health_rules.h"
+#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -29,9 +30,10 @@ ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now)
 /// A strut that changes while it is learned is not taken as healthy: if the means of the two halves differ by more than
 /// kProven standard deviations and 3 %, learning begins anew. So it does when the clock goes back: that is another
 /// drive, perhaps of another vehicle. Estimates whose windows overlap share their errors: those of a mean over t
-/// seconds have window / t of the variance of one. Where they scatter more than that, for certain, the rest is part of
-/// the baseline. With a thermometer the halves tell how damping goes with the temperature, too. Cost per estimate:
-/// O(1), no allocation.
+/// seconds have window / t of the variance of one. What they scatter beyond their standard deviation is part of the
+/// baseline; as n windows tell a variance, a later one is judged by Student's distribution of n degrees of freedom,
+/// which has n / (n - 2) of the variance. With a thermometer the halves tell how damping goes with the temperature,
+/// too. Cost per estimate: O(1), no allocation.
 class BaselineLearner {
  public:
   /// @param seconds  to learn from, > 0.
@@ -50,8 +52,10 @@ class BaselineLearner {
     double mean = 0.0, stddev = 0.0;  // stddev: that of one estimate, as root mean square
     double variance = 0.0;            // of the estimates
     void add(double value, double its_stddev, double gain);
-    double scatter(double windows) const;  // beyond the standard deviation
-    double spread(double windows) const { return std::hypot(stddev, scatter(windows)); }  // of an estimate, with that
+    // Of both halves; that their means differ by more than `explained` is scatter, too.
+    Parameter with(const Parameter& other, double explained) const;
+    double spread() const { return std::sqrt(std::max(square(stddev), variance)); }  // of an estimate, scatter included
+    double scatter(double windows) const;  // of a later estimate, beyond its standard deviation
   };
   struct Half {
     double seconds = 0.0;
