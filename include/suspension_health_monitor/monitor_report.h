@@ -50,17 +50,13 @@ struct DryFriction {
   double damping_covariance = 0.0;  ///< of the errors of b1 and f [m/s^3]
   double stiffness_gain = 0.0;      ///< 1 m/s^2 acts as so much of b0 where the strut sticks [1/m]
 
-  /// @return standard deviation of b1 since no damper has exactly this law [1/s]: a tenth of what friction acts as.
-  double lawStddev() const {
-    constexpr double kLawUnknown = 0.1;  // measured by friction_table
-    return kLawUnknown * std::abs(force) * damping_gain;
-  }
+  static constexpr double kLawUnknown = 0.1;  ///< of what friction acts as, measured by friction_table
+
+  /// @return standard deviation of b1 since no damper has exactly this law [1/s].
+  double lawStddev() const { return kLawUnknown * std::abs(force) * damping_gain; }
 
   /// @return likewise of b0 [1/s^2]: half as much, since friction that slides is out of phase with the travel.
-  double stiffnessLawStddev() const {
-    constexpr double kLawUnknown = 0.05;  // measured by friction_table
-    return kLawUnknown * std::abs(force) * stiffness_gain;
-  }
+  double stiffnessLawStddev() const { return 0.5 * kLawUnknown * std::abs(force) * stiffness_gain; }
 };
 
 /// What one estimator knows of the strut. NaN: nothing yet; an infinite standard deviation: nobody knows.

@@ -98,7 +98,7 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
 std::string whyNotValid(const IdentifyResult& found, const MonitorOptions& options) {
   if (found.estimate.valid || found.now.valid) return "";
   if (found.estimate.rows > 0.0) return "no estimate is valid: " + found.estimate.reason;
-  constexpr double kLengths = (BlockEstimator::kWindows[0] + 1) / 2.0;  // of blocks that overlap by half
+  constexpr double kLengths = (kBlockWindows.front() + 1) / 2.0;  // of blocks that overlap by half
   const double enough = kLengths * MonitorSettings(options).presentBlockLength();
   if (static_cast<double>(found.samples) * found.sample_period < enough)
     return "there is no estimate: too short" + describeEnough(enough);

@@ -59,7 +59,7 @@ TEST(BlockEstimator, TakesTheFewestBlocksThatAreSureEnough) {
     ASSERT_TRUE(estimates.back());
     const BlockOptions options;
     if (noise < 0.1) {
-      EXPECT_EQ(estimates.back()->blocks, BlockEstimator::kWindows.front());
+      EXPECT_EQ(estimates.back()->blocks, kBlockWindows.front());
     } else if (noise < 2.0) {
       EXPECT_GT(estimates.back()->blocks, 6);
       EXPECT_LT(estimates.back()->worst(), options.enough);

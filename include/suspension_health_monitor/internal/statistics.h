@@ -15,6 +15,15 @@ inline constexpr double kFalseAlarm = 0.001;
 /// chance once in 16 000.
 inline constexpr double kProven = 3.0, kCertain = 4.0;
 
+/// Share of the measured signal that a model has to explain to be that of the strut.
+inline constexpr double kLeastExplained = 0.5;
+
+/// Relative standard deviation from which a number is not known: twice that would be the change that is an error.
+inline constexpr double kMostRelativeStddev = 0.15;
+
+/// Smallest relative change of a strut that matters: less is what another road does.
+inline constexpr double kLeastChange = 0.03;
+
 /// @return the middle value, in an order that it changes; of an even number the upper of the middle two, of none 0.
 template <class Value>
 Value medianInPlace(std::vector<Value>& values) {

@@ -10,24 +10,19 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kShareMean = 0.5, kShareStddev = 0.29;  // of r: uniform in (0, 1)
-// Noise of all wheels of a vehicle is in e of every top, in proportions that change with frequency: no r is right, and
-// what is wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
-constexpr double kNoShare = 0.02;
 // Links, rubber and tyres' side forces turn the phase of a vehicle's struts as a delay does, by up to 0.07 rad at 20 Hz
 // on recorded multibody vehicles. What a delay then takes from b0 at high frequencies is as much as 17 % of it.
 constexpr double kLeastPhase = 0.15;  // in the last bin [rad]
-constexpr double kNoDelay = 1e-6;     // [s]
-constexpr double kNoGain = 1e-9;      // also beside data without noise
-constexpr int kSlowEvery = 4;         // blocks: all blocks then have changed by a sixteenth
-constexpr double kSlowFactor = 1.5;   // standard deviations of what changes slowly count so much more for fewer blocks
-constexpr double kLost = 0.3;         // relative standard deviation from which there is no estimate to linearise at
-constexpr double kHalf = 0.5;         // of the body's power
-constexpr int kStartBlocks = 8, kStartSteps = 8;
-constexpr int kVehicleStartSteps = 3;  // all that one reading has time for; the blocks after it go on
-constexpr int kRefined = 8;            // blocks that are linearised anew per update
-constexpr double kStale = 0.02;        // relative change of b1 or b0 since the linearisation
-constexpr double kStalePhase = 0.1;    // of the phase that the delay makes in the last bin [rad]
-constexpr double kStaleShare = 0.2;    // of r
+// Standard deviation of a delay [s] or of a gain that is held at none, also beside data without noise.
+constexpr double kNone = 1e-9;
+constexpr int kSlowEvery = 4;        // blocks: all blocks then have changed by a sixteenth
+constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
+constexpr double kLost = 0.3;        // relative standard deviation from which there is no estimate to linearise at
+constexpr int kStartBlocks = 8, kStartSteps = 8;  // blocks that one reading has time to linearise
+constexpr int kVehicleStartSteps = 3;             // all that one reading has time for; the blocks after it go on
+constexpr double kStale = 0.02;                   // relative change of b1 or b0 since the linearisation
+constexpr double kStalePhase = 0.1;               // of the phase that the delay makes in the last bin [rad]
+constexpr double kStaleShare = 0.2;               // of r
 
 // At rest now and then a strut is found in the noise: by chance p parameters explain p of the numbers of half
 // overlapped blocks. And a body that something else moves at one frequency, as the wind rocks a parked car, drags its
@@ -49,28 +44,30 @@ bool isSlow(int i) { return i == kBlockDelay || i == kBlockGain || i >= kNumBloc
 BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options)
     : options_(options),
       equations_(band, columns),
-      window_fit_(band, columns, kMostBlocks),
-      ring_(kMostBlocks, equations_.makeBlock()),
+      window_fit_(band, columns, kBlockWindows.back()),
+      ring_(kBlockWindows.back(), equations_.makeBlock()),
       drive_(band, columns) {
   const int p = columns.numParameters();
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, HUGE_VAL);
   first_.stddev[kBlockDelay] = delayStddev();
-  first_.stddev[kBlockGain] = kNoGain;
+  first_.stddev[kBlockGain] = kNone;
   first_.mean[kBlockWheelShare] = kShareMean;
   first_.stddev[kBlockWheelShare] = kShareStddev;
   if (columns.neighbours > 0) {
-    first_.mean[kBlockWheelShare] = kNoShare;
-    first_.stddev[kBlockWheelShare] = kNoShare / 2.0;
-    first_.stddev[kBlockDelay] = kNoDelay;
+    // Noise of all wheels is in e of every top, in proportions that change with frequency: no r is right, and what is
+    // wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
+    first_.mean[kBlockWheelShare] = kLeastShare;
+    first_.stddev[kBlockWheelShare] = kLeastShare / 2.0;
+    first_.stddev[kBlockDelay] = kNone;
   }
   slow_ = scaled_ = first_;
   factor_.setOnes(p);
   factor_stddev_.setZero(p);
   theta_.setZero(p);
-  shorter_.reserve(kWindows.size());
-  pointers_.reserve(kMostBlocks);
-  sorted_.reserve(kMostBlocks);
+  shorter_.reserve(kBlockWindows.size());
+  pointers_.reserve(kBlockWindows.back());
+  sorted_.reserve(kBlockWindows.back());
 }
 
 // Of a strut that bounces far faster than a car's no more than what a car's may be off by, in its own time.
@@ -79,9 +76,9 @@ double BlockEstimator::delayStddev() const {
 }
 
 StrutBlock& BlockEstimator::next() {
-  if (count_ == kMostBlocks) retire(block(kMostBlocks - 1));
-  head_ = (head_ + 1) % kMostBlocks;
-  count_ = std::min(count_ + 1, kMostBlocks);
+  if (count_ == kBlockWindows.back()) retire(block(kBlockWindows.back() - 1));
+  head_ = (head_ + 1) % kBlockWindows.back();
+  count_ = std::min(count_ + 1, kBlockWindows.back());
   block(0).at.setZero();
   return block(0);
 }
@@ -104,7 +101,7 @@ bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& re
 }
 
 std::optional<WindowEstimate> BlockEstimator::ofBlocks(int newest, int count) {
-  if (!has_theta_ || count < kWindows.front() || newest + count > count_) return std::nullopt;
+  if (!has_theta_ || count < kBlockWindows.front() || newest + count > count_) return std::nullopt;
   pointers_.clear();
   for (int age = newest + count - 1; age >= newest; --age) pointers_.push_back(&block(age));
   WindowEstimate result;
@@ -128,10 +125,10 @@ const WindowEstimate* BlockEstimator::update() {
   const BlockPrior& prior = contradictsSlow() ? first_ : scaled_;
   int window = 0;
   shorter_.clear();
-  for (const int m : kWindows) {
+  for (const int m : kBlockWindows) {
     if (m > count_) break;
     const bool is_usable = fit(m, prior, trial_) && explainsSomething(trial_, equations_.band());
-    if (m == kWindows.front()) newest_worst_ = is_usable ? trial_.worst() : HUGE_VAL;
+    if (m == kBlockWindows.front()) newest_worst_ = is_usable ? trial_.worst() : HUGE_VAL;
     if (!is_usable) continue;
     if (contradictsShorter(trial_)) break;  // what is older is of another strut
     if (window == 0 || trial_.worst() < best_.worst()) {
@@ -149,7 +146,7 @@ const WindowEstimate* BlockEstimator::update() {
   if (!has_theta_) return nullptr;
   theta_ = best_.theta;
   // Blocks at rest can only make it worse: what is known is held.
-  if (newestSayNothing() && (best_.explained < kHalf || best_.worst() >= told_worst_)) return nullptr;
+  if (newestSayNothing() && (best_.explained < kLeastExplained || best_.worst() >= told_worst_)) return nullptr;
   told_worst_ = best_.worst();
   return &best_;
 }
@@ -160,14 +157,14 @@ bool BlockEstimator::start() {
   told_worst_ = HUGE_VAL;
   // Where a strut was known and lost few blocks tell it from what went before, as from a burst of wrong readings.
   const bool was_known = is_alone && weights_.usual.size() > 0;
-  if (startBy(std::min(count_, kStartBlocks)) || (was_known && startBy(kWindows.front()))) {
+  if (startBy(std::min(count_, kStartBlocks)) || (was_known && startBy(kBlockWindows.front()))) {
     for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
     return true;
   }
   if (is_alone) return false;
   waits_ = kSlowEvery - 1;
   double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
-  stddev = stddev == kNoDelay ? delayStddev() : kNoDelay;
+  stddev = stddev == kNone ? delayStddev() : kNone;
   return false;
 }
 
@@ -199,10 +196,10 @@ void BlockEstimator::lookAtSensors() {
   const bool is_known = fit(count_, first_, trial_);
   const double gain = trial_.theta[kBlockGain];
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kLeastPhase))
-    first_.stddev[kBlockDelay] = kNoDelay;
+    first_.stddev[kBlockDelay] = kNone;
   if (!is_known || trial_.explained < kNearlyAll ||
       std::abs(gain) < kLeastGain + kCertain * std::sqrt(trial_.covariance(kBlockGain, kBlockGain)))
-    first_.stddev[kBlockGain] = kNoGain;
+    first_.stddev[kBlockGain] = kNone;
 }
 
 void BlockEstimator::forgetSlow() {
@@ -290,7 +287,7 @@ bool BlockEstimator::contradictsSlow() {
   if (weights_.usual.size() == 0) return false;
   BlockPrior open = scaled_;
   open.stddev = first_.stddev;
-  if (!fit(kWindows.front(), open, trial_)) return false;
+  if (!fit(kBlockWindows.front(), open, trial_)) return false;
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
     if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
     const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
@@ -332,7 +329,7 @@ bool BlockEstimator::isStale(const StrutBlock& block) const {
 
 void BlockEstimator::refine(int window, const BlockPrior& prior) {
   int refined = 0;
-  for (int age = 0; age < window && refined < kRefined; ++age) {
+  for (int age = 0; age < window && refined < kStartBlocks; ++age) {
     if (!isStale(block(age))) continue;
     equations_.linearise(best_.theta, block(age));
     ++refined;

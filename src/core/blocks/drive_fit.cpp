@@ -106,7 +106,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
 }
 
 std::optional<WindowEstimate> DriveFit::estimate(const BlockPrior& prior) const {
-  if (blocks_ < kFewestBlocks) return std::nullopt;
+  if (blocks_ < kBlockWindows.front()) return std::nullopt;
   BlockMatrix normal = information_;
   BlockVector right = right_;
   const BlockVector known = prior.stddev.cwiseAbs2().cwiseInverse();

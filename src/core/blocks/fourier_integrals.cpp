@@ -7,8 +7,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kLanes = 8;  // bins that are turned at once
-// A gap of a 32nd of the block costs as much of its information, and the rule across it is noise that is measured.
-constexpr double kLongestSpacing = 1.0 / 32.0;
 
 }  // namespace
 

@@ -8,9 +8,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kIterations = 3;        // of the noise and parameters
-constexpr int kWeighings = 3;         // of blocks
-constexpr double kLeastShare = 0.02;  // of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor
+constexpr int kIterations = 3;  // of the blocks' weights, and within each of the noise and parameters
 
 // Within a factor of two of what it was, so that the model stays stable.
 double withinReach(double value, double before) { return std::clamp(value, 0.5 * before, 2.0 * before); }
@@ -56,7 +54,7 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   result.theta = start;
   solved_ = start.head<2>();
   gather(blocks);
-  for (int w = 0; w < kWeighings; ++w) {
+  for (int w = 0; w < kIterations; ++w) {
     for (int i = 0; i < kIterations; ++i) {
       measureNoise(result.theta);
       sum(prior);

@@ -10,14 +10,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLag = 0.01;
-
 // The first blocks that are tried, over the length that is asked for, and by how much of it the body's clock is taken
 // for late. A short drive has no three blocks of that length. Struts that bounce far slower or faster than it is for
 // come last.
-constexpr std::pair<double, double> kTrials[] = {{1.0, 0.0},        {1.0, kLag},        {1.0, -kLag},
-                                                 {1.0, 2.0 * kLag}, {1.0, -2.0 * kLag}, {0.5, 0.0},
-                                                 {8.0, 0.0},        {0.125, 0.0},       {1.0 / 32.0, 0.0}};
+constexpr std::pair<double, double> kTrials[] = {{1.0, 0.0}, {1.0, 0.01}, {1.0, -0.01}, {1.0, 0.02},      {1.0, -0.02},
+                                                 {0.5, 0.0}, {8.0, 0.0},  {0.125, 0.0}, {1.0 / 32.0, 0.0}};
 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
   BlockOptions options;
@@ -44,8 +41,7 @@ RoughStrut::RoughStrut(const WindowEstimate& estimate, double lag) {
 }
 
 bool RoughStrut::clocksDiffer(double period) const {
-  constexpr double kLeast = 0.0025;  // [s]
-  return std::abs(clock_offset) > std::max({kLeast, period / 2.0, kCertain * clock_offset_stddev});
+  return std::abs(clock_offset) > std::max({kLeastDelay, period / 2.0, kCertain * clock_offset_stddev});
 }
 
 int RoughStrut::horizonSamples(double period) const {
@@ -54,12 +50,11 @@ int RoughStrut::horizonSamples(double period) const {
 }
 
 std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double period, double length) {
-  constexpr double kHalf = 0.5;
   std::optional<RoughStrut> best;
   for (const auto& [blocks, lag] : kTrials) {
     const auto found = find(drives, period, blocks * length, lag * length);
     if (found && (!best || found->explained > best->explained)) best = found;
-    if (best && best->explained > kHalf) break;
+    if (best && best->explained > kLeastExplained) break;
   }
   return best;
 }

@@ -149,7 +149,7 @@ bool BaselineLearner::drifts() const {
     const double difference = std::abs(second - first);
     const double variance =
         a.varianceOfMean(of_first) + b.varianceOfMean(of_second) + square(warmth * (first + second) / 2.0);
-    return difference > kLeastDrift * std::abs(first) && difference > kProven * std::sqrt(variance);
+    return difference > kLeastChange * std::abs(first) && difference > kProven * std::sqrt(variance);
   };
   const double gain = a.friction && b.friction ? (a.friction->damping_gain + b.friction->damping_gain) / 2.0 : 0.0;
   const auto damping = [&](const Half& half) {

@@ -10,8 +10,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kThreshold = 0.15;  // deviation from the others that counts, as a share [-]
-
 enum Part { kDamping, kStiffness, kStrut };
 using Deviation = Eigen::Array3d;  // ln of a ratio by Part; kStrut: damping less stiffness, free of the load
 
@@ -66,7 +64,8 @@ bool has(const Members& members, std::size_t corner) {
 }
 
 bool counts(double deviation, double variance) {
-  return std::abs(deviation) > std::abs(std::log1p(-kThreshold)) && square(deviation) > square(kProven) * variance;
+  return std::abs(deviation) > std::abs(std::log1p(-HealthThresholds().damping_warn)) &&
+         square(deviation) > square(kProven) * variance;
 }
 
 Part changedPart(const Deviation& deviation) {

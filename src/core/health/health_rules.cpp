@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -126,7 +128,7 @@ LogChange ChangeTrend::carryOn(const LogChange& change, double age, double now, 
   }
   if (!(product * product > certain * certain * information)) return change;
   const double slope = product / information;
-  return {change.size + std::clamp(slope * age, -kMostCarried, kMostCarried),
+  return {change.size + std::clamp(slope * age, -kLeastChange, kLeastChange),
           std::hypot(change.stddev, age / std::sqrt(information))};
 }
 

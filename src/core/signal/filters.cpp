@@ -65,9 +65,9 @@ BandlimitedInterpolator BandlimitedInterpolator::integral(double from, double to
 
 namespace {
 
-// Of the sampling rate, of a filter of kShortest samples to either side; longer ones are narrower by as much.
+// Of the sampling rate, of a filter of BandlimitedInterpolator::kHalfWidth samples to either side; longer ones are
+// narrower by as much.
 constexpr double kWidestFlat = 0.24, kWidestStop = 0.42;
-constexpr int kShortest = 12;
 constexpr int kFrequencies = 2000;  // at which the errors are summed: many more than the taps can tell apart
 
 struct FilterPair {
@@ -117,7 +117,8 @@ FilterPair makePair(int delay, double flat, double stop) {
 MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t differentiated)
     : period_(period),
       flat_(std::min(kBand, kWidestFlat / toSeconds(period))),
-      delay_(static_cast<int>(std::ceil(kShortest * kWidestFlat / (flat_ * toSeconds(period)) - 1e-9))),
+      delay_(static_cast<int>(
+          std::ceil(BandlimitedInterpolator::kHalfWidth * kWidestFlat / (flat_ * toSeconds(period)) - 1e-9))),
       instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
       history_(filtered + differentiated, DelayLine(2 * delay_ + 1)),
       stamps_(static_cast<std::size_t>(2 * delay_ + 1)) {

@@ -44,8 +44,7 @@ void SamplingTest::add(double value, double off) {
 namespace {
 
 constexpr double kNear = 1.5;        // periods: up to one lost reading, and jitter
-constexpr double kPause = 16.0;      // periods: a longer spacing is no message that waits but a pause
-constexpr std::size_t kLag = 16;     // spacings at once tell the period of batches, too
+constexpr int kLongestBatch = 16;    // readings that come at once: a longer spacing is a pause
 constexpr double kOfOneStamp = 0.6;  // of what convinces
 const double kConvincing = std::log(1e3);
 constexpr int kOtherPeriod = 64, kMiscount = 5;  // readings more that do not follow by a period than do
@@ -90,7 +89,8 @@ double StreamClock::medianSpacing(std::size_t over) const {
 
 // The sum of exp(2 pi i f t) over the stamps t is largest where f is the rate, however many readings are lost.
 double StreamClock::likeliestPeriod(double rough) const {
-  constexpr double kStep = 0.25 / kFirst, kMost = 1.0 / kLag;  // a quarter of a peak's width; one loss in each stretch
+  constexpr double kStep = 0.25 / kFirst,
+                   kMost = 1.0 / kLongestBatch;  // a quarter of a peak's width; one loss in each stretch
   std::array<std::complex<double>, kFirst> now, turn;
   for (std::size_t i = 0; i < kFirst; ++i) {
     const double angle = 2.0 * M_PI * (first_[i] - first_[0]) / rough;
@@ -113,7 +113,7 @@ double StreamClock::likeliestPeriod(double rough) const {
 
 void StreamClock::begin(double stamp) {
   first_[num_first_++] = stamp;
-  if (num_first_ > 1) period_ = medianSpacing(std::min(kLag, num_first_ / 2));
+  if (num_first_ > 1) period_ = medianSpacing(std::min<std::size_t>(kLongestBatch, num_first_ / 2));
   if (num_first_ < kFirst) return;
   period_ = likeliestPeriod(period_);
   stamp_ = time_ = first_[0];
@@ -139,7 +139,7 @@ int StreamClock::periodsSinceLast(double stamp) {
   evidence_ = std::max(0.0, evidence_ + std::min(ratio, most));
   if (std::abs(whole_before_) > 1.0 && whole != whole_before_) messages_wait_ = true;
   whole_before_ = whole;
-  const bool is_pause = std::abs(whole) > kPause;
+  const bool is_pause = std::abs(whole) > kLongestBatch;
   if (!is_pause && evidence_ < kConvincing) {
     out_of_step_ = std::max(0, out_of_step_ - 1);
     return 1;

@@ -46,8 +46,8 @@ void AlignmentJudge::startNewSeries() {
 void AlignmentJudge::judge(Outcomes& outcomes) {
   if (outcomes.pairs + outcomes.lone < kOutcomes) return;
   if (verdict_ == Verdict::kDoesWell) {
-    if (toSeconds(outcomes.apart) > kMostOffset * outcomes.pairs * toSeconds(period_)) verdict_ = Verdict::kApart;
-    if (outcomes.lone > kMostLone * kOutcomes) verdict_ = Verdict::kLoneReadings;
+    if (toSeconds(outcomes.apart) > kMostShare * outcomes.pairs * toSeconds(period_)) verdict_ = Verdict::kApart;
+    if (outcomes.lone > kMostShare * kOutcomes) verdict_ = Verdict::kLoneReadings;
   }
   outcomes.pairs = outcomes.lone = 0;
   outcomes.apart = {};

@@ -13,8 +13,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kLeastPhi = 1e-4, kMostPhi = 1.0;
-constexpr int kHalvings = 14;        // of the logarithm of phi: to 0.06 %
-constexpr double kSideBySide = 0.1;  // of the wheelbase
+constexpr int kHalvings = 14;  // of the logarithm of phi: to 0.06 %
 // Multibody vehicles without bars kept more than 2.5 % with false ones in the model, those with bars 1.1 % with them.
 constexpr double kLeastLeft = 0.02;
 constexpr double kFall = 3.0;  // phi without bars over that with them

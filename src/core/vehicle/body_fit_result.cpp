@@ -10,8 +10,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-// Of a neighbour's force: such an error makes b1 and b0 wrong by a few percent, as wheels hardly ever move alike.
-constexpr double kMostOfRatio = 0.15;
 constexpr double kStep = 1e-6;  // relative, of differences
 
 bool isProven(const Measured& number) { return number.value > kProven * number.stddev; }
@@ -38,7 +36,8 @@ bool BodyRows::areKnown() const {
   if (!(rate.diagonal().minCoeff() > 0.0 && travel.diagonal().minCoeff() > 0.0)) return false;
   for (Eigen::Index i = 0; i < size(); ++i)
     for (Eigen::Index j = 0; j < size(); ++j)
-      if (!(ratio(i, j).stddev < kMostOfRatio)) return false;
+      // Of a neighbour's force: such an error makes b1 and b0 wrong by a few percent, as wheels hardly ever move alike.
+      if (!(ratio(i, j).stddev < kMostRelativeStddev)) return false;
   return true;
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kLeastUpperEdge = 2.5, kMostPeriods = 6.0;  // of the bounce in a block; 1.6 of a usual one
 constexpr double kUsualDamping = 0.6;                        // b1 over the bounce: a damping ratio of 0.3
-constexpr double kFewestReadings = 33.0;                     // of a block: fewer are a gap each, see FourierIntegrals
 // Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
 // the information.
 constexpr double kStaleRows = 0.1;
@@ -40,7 +39,7 @@ VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions&
       last_(2 * size() + vehicle.known_forces.size() + 2),
       modulation_(BlockBand(length_, period)) {
   for (std::size_t i = 0; i < size(); ++i) estimates_[i].strut = i;
-  while (length_ < kFewestReadings * period_) length_ *= 2.0;
+  while (period_ >= FourierIntegrals::kLongestSpacing * length_) length_ *= 2.0;
   begin(length_);
 }
 
@@ -275,7 +274,7 @@ void VehicleBlocks::follow() {
   }
   if (upper_edge < kLeastUpperEdge)
     begin(2.0 * length_);
-  else if (periods > kMostPeriods && length_ >= 2.0 * kFewestReadings * period_)
+  else if (periods > kMostPeriods && period_ < FourierIntegrals::kLongestSpacing * length_ / 2.0)
     begin(0.5 * length_);
 }
 

@@ -10,7 +10,6 @@ namespace {
 
 using Kind = VehicleMistake::Kind;
 
-constexpr int kFewestBlocks = 8;
 constexpr double kSame = 1e-9;   // 1 - r^2 of two streams of one sensor, by rounding; noise of two makes 1e-5
 constexpr double kAlike = 0.01;  // of a wheel's power is all that the other wheels do not have: a tenth of its motion
 constexpr double kBetter = 0.5;  // of what the file leaves beyond noise

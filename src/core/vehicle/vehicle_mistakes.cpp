@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 
@@ -15,9 +16,7 @@ const std::vector<double> kFactors{0.6, 0.8, 1.0, 1.2, 1.4, 1.6}, kOtherSign{-1.
 const std::vector<double> kDelays{-0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05};
 const std::vector<double> kShifts{-0.4, -0.2, 0.0, 0.2, 0.4};  // of the wheelbase, or of the track
 
-constexpr int kFewestOfHalf = 4;       // of the blocks
 constexpr double kLeastTurning = 0.1;  // of the heave that wheels pass on
-constexpr double kLeastSpread = 0.1;   // of the larger of wheelbase and track
 
 double spreadOf(const StrutPlaces& places, std::size_t axis) {
   const auto [least, most] = std::minmax_element(places.begin(), places.end(),
@@ -27,7 +26,7 @@ double spreadOf(const StrutPlaces& places, std::size_t axis) {
 
 /// @return true if struts stand so far from one another along it that they see the body turn.
 bool isSpread(const StrutPlaces& places, std::size_t axis) {
-  return spreadOf(places, axis) > kLeastSpread * std::max(spreadOf(places, 0), spreadOf(places, 1));
+  return spreadOf(places, axis) > kSideBySide * std::max(spreadOf(places, 0), spreadOf(places, 1));
 }
 
 /// @return what heave, pitch and roll do to the tops; 0 about an axis on which all stand.
@@ -43,7 +42,6 @@ Eigen::MatrixXd motionsOf(const StrutPlaces& places) {
 }  // namespace
 
 bool VehicleMistake::isContradiction() const {
-  constexpr double kEstimated = 0.0025;  // [s], twice what kLeastPhase of the blocks lets in
   switch (kind) {
     case Kind::kNone:
     case Kind::kTooLittle:
@@ -52,7 +50,7 @@ bool VehicleMistake::isContradiction() const {
     case Kind::kLateWheel:
     case Kind::kLateTop:
     case Kind::kLateTops:
-    case Kind::kLateBody: return std::abs(size) < kEstimated;
+    case Kind::kLateBody: return std::abs(size) < kLeastDelay;
     default: return true;
   }
 }
@@ -61,7 +59,7 @@ bool VehicleMistake::isContradiction() const {
 // half.
 bool VehicleClaims::hasDeadGyro() const {
   const Eigen::Index count = (blocks_ + 1) / 2;
-  if (places_.empty() || count < kFewestOfHalf) return false;
+  if (places_.empty() || blocks_ < kFewestBlocks) return false;
   Eigen::MatrixXd wheels = Eigen::MatrixXd::Zero(n_, n_), tops = wheels;
   for (const Eigen::MatrixXcd& columns : columns_) {
     const auto wheel = columns.topLeftCorner(n_, count), top = columns.block(n_, 0, n_, count);

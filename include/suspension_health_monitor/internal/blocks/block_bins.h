@@ -25,6 +25,8 @@ inline constexpr double kNearlyAll = 0.97;
 /// Difference of both sensors' gains that is one. Links and the wheel's turning make up to 2 % on recorded multibody
 /// vehicles, a law with memory up to 9 % on measured records, with a standard deviation of 2 %.
 inline constexpr double kLeastGain = 0.05;
+/// Delay between two clocks that is one [s]: twice what the phase of links and rubber looks like.
+inline constexpr double kLeastDelay = 0.0025;
 
 /// The bins of a block that the estimator uses: k = first .. last, w_k = 2 pi k / T. The Hann window mixes each bin
 /// with its neighbours, so that spectra hold bins first - 1 .. last + 1.
@@ -88,8 +90,6 @@ class NoiseBands {
 /// is the integral of hann(t) e^(-j w_k t) times the p-th derivative, in bins first .. last.
 class Modulation {
  public:
-  static constexpr int kDerivatives = 4;  ///< p = 0 .. 3; a gyro's derivative needs one more than an acceleration's
-
   explicit Modulation(const BlockBand& band) : s_(band.spectrumSize()) {
     for (Eigen::Index i = 0; i < s_.size(); ++i) s_[i] = {0.0, band.omega(band.first - 1 + static_cast<int>(i))};
     for (auto& each : weights_) each.resize(s_.size());
@@ -116,7 +116,8 @@ class Modulation {
 
  private:
   Eigen::ArrayXcd s_;
-  std::array<Eigen::ArrayXcd, kDerivatives> weights_;  // s^p e^(s tau)
+  // s^p e^(s tau), p = 0 .. 3: a gyro's derivative needs one more than an acceleration's.
+  std::array<Eigen::ArrayXcd, 4> weights_;
 };
 
 }  // namespace suspension_health_monitor

@@ -10,14 +10,16 @@
 
 namespace suspension_health_monitor {
 
+/// Windows [blocks]. The largest is a minute at T = 2 s: far longer than a damper stays the same temperature, shorter
+/// than health/oldest_data asks for.
+inline constexpr std::array kBlockWindows{3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+
 /// The estimate over a drive of any length: the normal equations of WindowFit, summed block by block with the weights
 /// and at the parameters of their time. The equations are linear in b1 and b0 whatever they are weighted by, so that
 /// this is consistent; memory and cost do not grow with the drive. Cost per block: O(bands * parameters^2), no
 /// allocation.
 class DriveFit {
  public:
-  static constexpr int kFewestBlocks = 3;  ///< as of the smallest window
-
   DriveFit(const BlockBand& band, const BlockColumns& columns);
 
   /// @param weights  of the blocks about this one.  @param theta  parameters then.
@@ -48,10 +50,7 @@ class DriveFit {
 /// where that is stale. Cost per block: some ten linearisations at most, after the start; no allocation.
 class BlockEstimator {
  public:
-  static constexpr int kMostBlocks = 64;  ///< of a window: a minute at T = 2 s, far longer than a damper stays the same
-                                          ///< temperature, shorter than health/oldest_data asks for
-  static constexpr double kNothing = 0.5;                                    ///< relative standard deviation
-  static constexpr std::array kWindows{3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  ///< [blocks]
+  static constexpr double kNothing = 0.5;  ///< relative standard deviation
 
   BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options);
 
@@ -98,7 +97,7 @@ class BlockEstimator {
   bool hasTheta() const { return has_theta_; }
 
   /// @return true if there are blocks enough for an estimate.
-  bool hasBlocks() const { return count_ >= kWindows.front(); }
+  bool hasBlocks() const { return count_ >= kBlockWindows.front(); }
 
   /// @return true if the newest blocks alone say nothing of the strut: they do not know it to kNothing of itself.
   bool newestSayNothing() const { return !(newest_worst_ < kNothing); }
@@ -108,7 +107,9 @@ class BlockEstimator {
   const BlockPrior& slowPrior() const { return slow_; }
 
  private:
-  std::size_t placeOf(int age) const { return static_cast<std::size_t>((head_ - age + kMostBlocks) % kMostBlocks); }
+  std::size_t placeOf(int age) const {
+    return static_cast<std::size_t>((head_ - age + kBlockWindows.back()) % kBlockWindows.back());
+  }
   std::vector<const StrutBlock*>& newest(int count);
   void scaleSlow();
   double delayStddev() const;

@@ -14,6 +14,9 @@ namespace suspension_health_monitor {
 /// Damping ratio below which a damper is as good as none [-]; that of a healthy strut is 0.2 to 0.5.
 inline constexpr double kLeastDamping = 0.1;
 
+/// Of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor.
+inline constexpr double kLeastShare = 0.02;
+
 /// @return b1 [1/s], at least that of kLeastDamping.
 inline double leastDamping(double b1, double b0) { return std::max(b1, 2.0 * kLeastDamping * std::sqrt(b0)); }
 

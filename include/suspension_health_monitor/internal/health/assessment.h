@@ -14,7 +14,7 @@ namespace suspension_health_monitor {
 struct HealthOptions : HealthThresholds {
   double hysteresis = 0.02;            ///< a level ends this far below its threshold, or a standard deviation [-]
   double min_significance = kCertain;  ///< standard deviations that a change must have to be one
-  double early_change = 0.03;          ///< smaller changes need no early warning [-]
+  double early_change = kLeastChange;  ///< smaller changes need no early warning [-]
   double false_alarm_interval = 1e6;   ///< mean time between two early warnings of a healthy strut [s]
 
   /// @throws std::invalid_argument  if an error threshold is below its warning threshold.

@@ -68,8 +68,6 @@ class BaselineLearner {
     double varianceOfMean(const Parameter& parameter) const;
   };
 
-  static constexpr double kLeastDrift = 0.03;  // of the value: less is what another road does
-
   bool drifts() const;
   std::optional<DamperTemperature> temperature() const;
   Baseline result(Stamp to) const;

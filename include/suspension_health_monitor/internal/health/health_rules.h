@@ -126,7 +126,7 @@ class EarlyWarning {
 ///
 /// A straight line by weighted least squares through the newest changes, each at the time of its data. Estimates whose
 /// windows overlap share their errors, so that each counts only by the part of its window that is new. Where the slope
-/// is significant the newest change is carried on by it, by no more than kMostCarried, so that a small step does not
+/// is significant the newest change is carried on by it, by no more than kLeastChange, so that a small step does not
 /// look large. Cost per change: O(kChanges), no allocation.
 class ChangeTrend {
  public:
@@ -140,7 +140,6 @@ class ChangeTrend {
 
  private:
   static constexpr std::size_t kChanges = 16;  // over four windows that share no reading
-  static constexpr double kMostCarried = 0.03;
 
   struct Point {
     double time, size, weight;

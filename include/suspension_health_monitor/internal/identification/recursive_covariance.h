@@ -115,13 +115,13 @@ class BatchScatter {
     if (correlated_rows_ == 0) return 1.0;
     const RunningMean& ratio = ratios_[static_cast<std::size_t>(i)];
     const double n = ratio.weight();
-    return n < kFewestBatches ? correlated_rows_ + 1.0 : std::max(1.0, kOfEnds * ratio.mean() * n / (n - 2.0));
+    // A correlation that falls in a line is cut at the ends of a batch: a third of one of them is missing in g^2.
+    const double kept = 1.0 - 1.0 / (3.0 * kCorrelationsPerBatch);
+    return n < kFewestBatches ? correlated_rows_ + 1.0 : std::max(1.0, ratio.mean() / kept * n / (n - 2.0));
   }
 
  private:
   static constexpr int kCorrelationsPerBatch = 4;
-  // A correlation that falls in a line is cut at the ends of a batch: a third of one of them is missing in g^2.
-  static constexpr double kOfEnds = 1.0 / (1.0 - 1.0 / (3.0 * kCorrelationsPerBatch));
   static constexpr double kFewestBatches = 2.9, kBatches = 30.0;  // three; a mean of n squares varies by sqrt(2 / n)
 
   int correlated_rows_, batch_rows_;

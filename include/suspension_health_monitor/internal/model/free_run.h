@@ -84,7 +84,7 @@ class FreeRun {
   std::optional<double> push(double unsprung_acceleration, double time = 0.0);
 
   /// @return true once the unknown initial travel has decayed to 1e-3 of itself.
-  bool settled() const { return decayed_ >= kSettledDecay; }
+  bool settled() const { return decayed_ >= std::log(1e3); }
 
   /// How often the run has left all bounds: the force of an effect was not usable (isUsable()), a prediction was not
   /// finite, or larger than a thousand times the largest w'' of the run. Effects can do that, whose coefficients
@@ -101,8 +101,6 @@ class FreeRun {
   void reset();
 
  private:
-  static constexpr double kSettledDecay = 6.9;  // ln 1000
-
   bool withEffects() const { return !model_.effects.empty(); }
   void split(double steps);
   void advance(double time);

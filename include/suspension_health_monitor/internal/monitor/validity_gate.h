@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// Share of the measured signal that a model has to explain to be that of the strut.
-inline constexpr double kLeastExplained = 0.5;
-
-/// Relative standard deviation from which a parameter is not known: twice that would be the change that is an error.
-inline constexpr double kMostRelativeStddev = 0.15;
 
 /// Estimators that are so far apart at most, or kCertain standard deviations of both, say the same.
 inline constexpr double kMostApart = 0.05;  ///< of the second

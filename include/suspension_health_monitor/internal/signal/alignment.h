@@ -40,8 +40,8 @@ struct GridOptions {
 /// Watches how well the pairing of readings with those of a reference does, by their stamps alone, so that a replay
 /// comes to the same judgement at the same reading. It does badly if, in kOutcomes pairs and lone readings of one
 /// stream and the reference,
-/// - the stamps of partners differ by more than kMostOffset T on average, or
-/// - more than kMostLone of the readings find no partner (in a row of more than kLongestRow the rest is a silence of
+/// - the stamps of partners differ by more than kMostShare T on average, or
+/// - more than kMostShare of the readings find no partner (in a row of more than kLongestRow the rest is a silence of
 ///   the other sensor and does not count),
 /// or if kInterruptions interruptions of the series of instants by less than kLongestLoss T come so close together that
 /// the integral filter, which needs `fill` samples in a row, would be full less than half of the time: on average
@@ -50,8 +50,7 @@ struct GridOptions {
 class AlignmentJudge {
  public:
   static constexpr int kOutcomes = 200;
-  static constexpr double kMostOffset = 0.1;
-  static constexpr double kMostLone = 0.1;
+  static constexpr double kMostShare = 0.1;
   static constexpr int kLongestRow = 3;
   static constexpr std::size_t kInterruptions = 5;
   static constexpr int kLongestLoss = 4;

@@ -26,8 +26,8 @@ class WhiteLevel {
       ++filled_;
       return;
     }
-    constexpr double kSquares = 12870.0;  // of the binomial coefficients of order 8: what they make of a variance of 1
-    size_.add(std::abs(value) / std::sqrt(kSquares));
+    // The squares of the binomial coefficients of order 8 add up to 12870.
+    size_.add(std::abs(value) / std::sqrt(12870.0));
     ++count_;
   }
 

@@ -39,6 +39,9 @@ struct BodyInertiaResult {
 /// By strut x ahead and y to the left of the strut's top, from any one point of the body [m].
 using StrutPlaces = std::vector<std::array<double, 2>>;
 
+/// Share of wheelbase or track: struts that are no farther apart along an axis stand side by side.
+inline constexpr double kSideBySide = 0.1;
+
 struct BodyFitResult;
 
 /// @param fit  of the rows of all struts; nothing: not known.  @param places  by strut; empty: not known.

@@ -75,6 +75,8 @@ class VehicleClaims {
   }
 
  private:
+  static constexpr int kFewestBlocks = 8;
+
   /// Streams of all struts as they would be without a mistake, from those that were measured.
   struct Mapping {
     Eigen::MatrixXd wheels, tops;
