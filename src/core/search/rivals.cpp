@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "model_evaluator.h"
 #include "suspension_health_monitor/internal/corner_sample.h"
@@ -15,13 +16,21 @@ namespace {
 
 constexpr double kWindow = 4.0;  // natural periods
 
-struct Window {
-  double time, frequency;  // in the middle [s]; ln of rms velocity over rms position of the wheel
-};
+/// A function by points (x, y), in straight lines between them and on along the outermost ones.
+using Polyline = std::vector<std::pair<double, double>>;
 
-std::vector<Window> windowsOf(const Records& records, double stiffness_to_mass) {
+double at(const Polyline& points, double x) {
+  if (points.empty()) return 0.0;
+  const auto after = std::lower_bound(points.begin() + 1, points.end() - 1, x,
+                                      [](const auto& point, double value) { return point.first < value; });
+  const auto& [x0, y0] = *(after - 1);
+  return y0 + (x - x0) / (after->first - x0) * (after->second - y0);
+}
+
+/// @return of every window ln of rms velocity over rms position of the wheel, and the time in its middle [s].
+Polyline windowsOf(const Records& records, double stiffness_to_mass) {
   const double length_in_time = kWindow * 2.0 * M_PI / std::sqrt(stiffness_to_mass);
-  std::vector<Window> windows;
+  Polyline windows;
   for (const DriveSegment* segment : segmentsOf(records)) {
     const MotionError wheel = motionError(segment->unsprung, 0.0, segment->period, stiffness_to_mass);
     const auto length = static_cast<std::size_t>(std::ceil(length_in_time / segment->period));
@@ -32,52 +41,37 @@ std::vector<Window> windowsOf(const Records& records, double stiffness_to_mass) 
         velocity += square(wheel.travel_rate[k]);
       }
       if (!(position > 0.0 && velocity > 0.0)) continue;
-      windows.push_back({segment->timeDriven(first + length / 2), 0.5 * std::log(velocity / position)});
+      windows.emplace_back(0.5 * std::log(velocity / position), segment->timeDriven(first + length / 2));
     }
   }
   return windows;
 }
 
-/// What is said at some time [s]: by frequency of the time.
-struct TimeTold {
-  double time, told;
-};
-
-/// By the windows whose frequencies are next to a window's, one below and one above: not by its own time. At the ends
-/// by the two next ones.
-std::vector<TimeTold> toldByFrequency(std::vector<Window> windows) {
-  std::vector<TimeTold> result;
+/// The time that a window's frequency tells, by its own time: by the windows whose frequencies are next to its own, one
+/// below and one above, not by its own time. At the ends by the two next ones.
+Polyline toldByFrequency(Polyline windows) {
+  Polyline result;
   if (windows.size() < 3) return result;
-  std::sort(windows.begin(), windows.end(), [](const Window& a, const Window& b) { return a.frequency < b.frequency; });
+  std::sort(windows.begin(), windows.end());
+  const auto time = [&](std::size_t i) { return windows[i].second; };
   const auto last = windows.size() - 1;
-  result.push_back({windows[0].time, 2.0 * windows[1].time - windows[2].time});
-  for (std::size_t i = 1; i < last; ++i)
-    result.push_back({windows[i].time, (windows[i - 1].time + windows[i + 1].time) / 2.0});
-  result.push_back({windows[last].time, 2.0 * windows[last - 1].time - windows[last - 2].time});
-  std::sort(result.begin(), result.end(), [](const TimeTold& a, const TimeTold& b) { return a.time < b.time; });
+  result.emplace_back(time(0), 2.0 * time(1) - time(2));
+  for (std::size_t i = 1; i < last; ++i) result.emplace_back(time(i), (time(i - 1) + time(i + 1)) / 2.0);
+  result.emplace_back(time(last), 2.0 * time(last - 1) - time(last - 2));
+  std::sort(result.begin(), result.end());
   return result;
 }
 
-/// In straight lines between the points, and on along the outermost ones.
-double at(const std::vector<TimeTold>& points, double time) {
-  if (points.empty()) return 0.0;
-  const auto after = std::lower_bound(points.begin() + 1, points.end() - 1, time,
-                                      [](const TimeTold& p, double t) { return p.time < t; });
-  const TimeTold& before = *(after - 1);
-  const double share = (time - before.time) / (after->time - before.time);
-  return before.told + share * (after->told - before.told);
-}
-
 /// s of the last effect over time.
-std::vector<TimeTold> lastMemories(const ModelFit& fit, const Records& records) {
-  std::vector<TimeTold> points;
+Polyline lastMemories(const ModelFit& fit, const Records& records) {
+  Polyline points;
   std::vector<double> predicted;
   std::vector<StrutState> motion;
   const std::vector<const DriveSegment*> segments = segmentsOf(records);
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!runFree(fit.model, *segments[s], fit.initial[s], predicted, &motion)) continue;
     for (std::size_t k = 0; k < motion.size(); ++k)
-      points.push_back({segments[s]->timeDriven(k), motion[k].memory[fit.model.effects.size() - 1].s});
+      points.emplace_back(segments[s]->timeDriven(k), motion[k].memory[fit.model.effects.size() - 1].s);
   }
   return points;
 }
@@ -104,7 +98,7 @@ bool changesSlowly(const ActiveEffect& active) {
 ForceEffect frequencyRival(const ModelFit& fit, const Records& records, double stiffness_to_mass) {
   const ActiveEffect& last = fit.model.effects.back();
   const ForceEffect& effect = last.effect;
-  const std::vector<TimeTold> told = toldByFrequency(windowsOf(records, stiffness_to_mass));
+  const Polyline told = toldByFrequency(windowsOf(records, stiffness_to_mass));
   ForceEffect rival = effect;
   if (effect.lasts) {
     rival.memory_rate = {};
