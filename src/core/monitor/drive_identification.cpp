@@ -8,19 +8,16 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
-IdentifiedStrut toIdentified(const StrutEstimate& estimate) {
-  IdentifiedStrut strut{estimate.damping_to_mass,
-                        estimate.stiffness_to_mass,
-                        estimate.dampingAbsoluteStddev(),
-                        estimate.stiffnessAbsoluteStddev(),
-                        estimate.effective_rows,
-                        estimate.explained,
-                        estimate.age,
-                        estimate.valid(),
-                        {}};
-  if (!strut.valid) strut.reason = describe(estimate.doubt);
-  return strut;
+namespace {
+
+StrutEstimate withAbsoluteStddev(StrutEstimate estimate) {
+  estimate.damping_to_mass_stddev = estimate.dampingAbsoluteStddev();
+  estimate.stiffness_to_mass_stddev = estimate.stiffnessAbsoluteStddev();
+  estimate.damping_model_stddev = estimate.stiffness_model_stddev = 0.0;
+  return estimate;
 }
+
+}  // namespace
 
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
   if (monitor.input().period_fits) return std::nullopt;
@@ -35,10 +32,10 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
   IdentifyResult result;
   result.sample_period = monitor.period();
   result.horizon_samples = monitor.horizonSamples();
-  result.ls = toIdentified(monitor.report().ls);
-  result.la = toIdentified(monitor.report().la);
-  result.estimate = toIdentified(over_the_drive);
-  result.now = toIdentified(monitor.report().estimate);
+  result.ls = withAbsoluteStddev(monitor.report().ls);
+  result.la = withAbsoluteStddev(monitor.report().la);
+  result.estimate = withAbsoluteStddev(over_the_drive);
+  result.now = withAbsoluteStddev(monitor.report().estimate);
   result.estimate.age = result.now.age;
   result.samples = monitor.input().samples;
   result.rows = monitor.input().rows;
@@ -54,12 +51,12 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
 }
 
 bool IdentifyResult::isSteady() const {
-  const auto agree = [this](double IdentifiedStrut::*value, double IdentifiedStrut::*stddev) {
+  const auto agree = [this](double StrutEstimate::*value, double StrutEstimate::*stddev) {
     return std::abs(estimate.*value - now.*value) <= kCertain * std::hypot(estimate.*stddev, now.*stddev);
   };
-  return !estimate.valid || !now.valid ||
-         (agree(&IdentifiedStrut::damping_to_mass, &IdentifiedStrut::damping_to_mass_stddev) &&
-          agree(&IdentifiedStrut::stiffness_to_mass, &IdentifiedStrut::stiffness_to_mass_stddev));
+  return !estimate.valid() || !now.valid() ||
+         (agree(&StrutEstimate::damping_to_mass, &StrutEstimate::damping_to_mass_stddev) &&
+          agree(&StrutEstimate::stiffness_to_mass, &StrutEstimate::stiffness_to_mass_stddev));
 }
 
 }  // namespace suspension_health_monitor

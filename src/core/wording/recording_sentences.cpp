@@ -41,7 +41,7 @@ std::string describeRejected(const RejectCounts& rejected) {
   return text;
 }
 
-std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut& end) {
+std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& end) {
   return formatted(
       "the strut changes over the drive, or is no plain spring and damper: damping/mass %.4g +- %.2g 1/s and "
       "stiffness/mass %.4g +- %.2g 1/s^2 over all of it, %.4g +- %.2g and %.4g +- %.2g at its end",
