@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "residual_series.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
 
 namespace suspension_health_monitor {
@@ -66,11 +65,10 @@ std::vector<double> edgesOver(const std::vector<Sample>& samples, ForceVariable 
   std::vector<double> values;
   values.reserve(samples.size());
   for (const Sample& sample : samples) values.push_back(valueOf(sample.motion, variable));
-  // Single extremes would stretch the axis.
-  const std::vector<double> ends = quantiles(std::move(values), {0.5 * (1.0 - kCovered), 0.5 * (1.0 + kCovered)});
+  const auto [from, to] = coveredRange(std::move(values));
   std::vector<double> edges;
   for (std::size_t i = 0; i <= bins; ++i)
-    edges.push_back(ends[0] + (ends[1] - ends[0]) * static_cast<double>(i) / static_cast<double>(bins));
+    edges.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(bins));
   return edges;
 }
 

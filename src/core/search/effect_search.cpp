@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "explanation.h"
 #include "model_evaluator.h"
 #include "rivals.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
@@ -44,6 +43,20 @@ std::vector<RankedModel> asReported(const std::vector<EvaluatedModel>& ranking) 
   return models;
 }
 
+/// The share of what a model leaves above the floor that another one takes.
+double shareOf(const EvaluatedModel& before, const EvaluatedModel& after, double floor) {
+  const double structure = square(before.ranked.held_out_rmse) - square(floor);
+  return structure > 0.0 ? (square(before.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
+}
+
+/// A force that goes with the body's own motion, not with the strut's.
+bool actsOnBody(const ActiveEffect& active) {
+  const auto rate = [&](double acceleration) {
+    return active.effect.memory_rate({1.0, 1.0, 1.0, 0.5, acceleration}, active.shapes.data());
+  };
+  return active.effect.memory_rate && (rate(0.0).s != rate(1.0).s || rate(0.0).second != rate(1.0).second);
+}
+
 class Search {
  public:
   Search(const Records& records, const HoldOut& held_out, const ModelFit& rough, std::size_t most_forces,
@@ -53,22 +66,225 @@ class Search {
         lagged_(lagged),
         evaluator_(records, held_out, outlierOf(rough), most_forces, options, lagged) {}
 
-  SearchResult run(const ModelFit& rough);
+  SearchResult run(const ModelFit& rough) {
+    base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
+    if (!base_.ranked.fitted && lagged_) base_ = evaluator_.asItIs(rough);
+    if (!base_.ranked.fitted) {
+      result_.shortcoming = Shortcoming::kNoStableFit;
+      return result_;
+    }
+    report(kStarted);
+    result_.base = base_.ranked;
+    result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
+    result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
+    turning_share_ = shareOfTurning(records_, evaluator_.heldOut(), evaluator_.motionOf(base_));
+    EvaluatedModel last = extend(base_, 0);
+    if (namesBeyond(base_, last).size() > 1) last = extendRivals(last);
+    last = refine(last);
+    // What several names explain no better than one does, one explains.
+    if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
+      result_.indistinguishable.clear();
+      result_.separating.clear();
+      last = suspect_->chosen;
+      noteGroup(*suspect_);
+    }
+    result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
+    conclude(last);
+    report(1.0);
+    return result_;
+  }
 
  private:
   void report(double share) const {
     if (options_.progress) options_.progress(share);
   }
-  void noteGroup(const Selection& selection);
-  EvaluatedModel extend(EvaluatedModel current, int round);
-  EvaluatedModel extendRivals(EvaluatedModel best);
-  EvaluatedModel refine(EvaluatedModel current);
-  EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
-  EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
-  bool standsAlone(const EvaluatedModel& candidate) const;
-  void conclude(const EvaluatedModel& last);
-  void name(Verdict verdict, const EvaluatedModel& model);
-  FittedModel finalFit(const EvaluatedModel& last) const;
+
+  void noteGroup(const Selection& selection) {
+    if (mayBeTilt(selection.chosen.ranked.model, selection.chosen.added, records_)) {
+      Names group = selection.group;
+      if (!contains(group, kTilt)) group.emplace_back(kTilt);
+      result_.indistinguishable.push_back(group);
+      result_.separating.push_back({group, DriveKind::kAtRest, 0.0, 0.0});
+      return;
+    }
+    if (selection.group.size() < 2) return;
+    result_.indistinguishable.push_back(selection.group);
+    result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen), selection));
+  }
+
+  // Forward selection: the best addition as long as it pays.
+  // @param round  how many the model has already.
+  EvaluatedModel extend(EvaluatedModel current, int round) {
+    for (; round < options_.most_effects; ++round) {
+      const double done = kStarted + kForward * round / options_.most_effects;
+      const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
+      std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
+      if (round > 0)
+        ranking.erase(std::remove_if(ranking.begin(), ranking.end(),
+                                     [this](const EvaluatedModel& each) { return !standsAlone(each); }),
+                      ranking.end());
+      if (round == 0) result_.ranking = asReported(ranking);
+      if (ranking.empty() || !ranking.front().ranked.fitted) break;
+      if (current.ranked.held_out_rmse < accuracyOfFreeRuns(records_)) break;
+      // Whatever a free run leaves of data that it was not fitted to is above the floor.
+      result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
+      if (!ranking.front().ranked.significant) break;
+      const Selection selection = select(ranking, evaluator_.heldOut());
+      if (round == 0) {
+        suspect_ = selection;
+        rivals_ = std::move(ranking);
+      }
+      current = withoutSuperfluous(selection.chosen);
+    }
+    return current;
+  }
+
+  // Of several effects that which explains most alone need not be one: a law with more numbers takes some of each. So
+  // every other that was fitted has its turn at being the first.
+  EvaluatedModel extendRivals(EvaluatedModel best) {
+    for (const EvaluatedModel& rival : rivals_) {
+      if (!rival.ranked.significant || contains(namesBeyond(base_, best), rival.added)) continue;
+      const EvaluatedModel other = extend(rival, 1);
+      if (other.loss < best.loss && complexity(other.ranked.model) <= complexity(best.ranked.model)) best = other;
+    }
+    return best;
+  }
+
+  // Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
+  EvaluatedModel refine(EvaluatedModel current) {
+    const Names found = namesBeyond(base_, current);
+    const bool only_suspect = found.size() == 1 && found.front() == suspect_->chosen.added;
+    if (only_suspect) noteGroup(*suspect_);
+    for (bool changed = !found.empty() && !only_suspect; changed;) {
+      result_.indistinguishable.clear();
+      result_.separating.clear();
+      const auto tick = [this](double) { report(kStarted + kForward); };
+      current = reconsidered(current, namesBeyond(base_, current), tick);
+      const std::size_t before = current.ranked.effects.size();
+      current.added.clear();  // none is too new to go
+      current = withoutSuperfluous(current);
+      changed = current.ranked.effects.size() < before;
+    }
+    return current;
+  }
+
+  // What the first effect explained, the later ones may explain better together.
+  EvaluatedModel withoutSuperfluous(EvaluatedModel current) const {
+    const std::string newest = current.added;
+    for (const std::string& name : namesBeyond(base_, current)) {
+      if (name == newest) continue;
+      const EvaluatedModel without = evaluator_.without(current, name);
+      if (without.ranked.fitted && !evaluator_.isWorthHaving(without, current)) current = without;
+    }
+    return current;
+  }
+
+  // Each effect was chosen before the later ones were known: is it still the one, and with which others is it confused?
+  EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick) {
+    for (const std::string& name : added) {
+      const EvaluatedModel without = evaluator_.without(current, name);
+      if (!without.ranked.fitted) continue;
+      const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(without, tick);
+      if (ranking.empty() || !ranking.front().ranked.fitted) continue;
+      const Selection selection = select(ranking, evaluator_.heldOut());
+      noteGroup(selection);
+      if (!contains(selection.group, name) ||
+          complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
+        current = selection.chosen;
+    }
+    return current;
+  }
+
+  // A sensor's fault is one on any drive: what helps only beside other effects imitates a part of theirs.
+  bool standsAlone(const EvaluatedModel& candidate) const {
+    const std::vector<ActiveMeasurementEffect>& readings = candidate.ranked.model.reading;
+    if (!candidate.ranked.significant || readings.empty() || readings.back().effect.name != candidate.added)
+      return true;
+    StrutModel alone = base_.ranked.model;
+    alone.reading.push_back(readings.back());
+    const EvaluatedModel evaluated = evaluator_.evaluate(alone, base_.fit.initial, &base_);
+    return evaluated.ranked.significant;
+  }
+
+  /// @return the noise floor of what a model leaves, see floorOfResidual().
+  double floorOf(const EvaluatedModel& after, double floor) const {
+    return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
+                           after.ranked.model);
+  }
+
+  /// Names are given if the model with them takes all of the structure but what counts as noise (kStructured), and as
+  /// much of what the best of them alone leaves. What sampling loses of the model's own forces, and what a sensor has
+  /// filtered, is noise.
+  /// @param before  the model with the best name alone; the base, if `after` has only one.
+  bool isExplained(const EvaluatedModel& after, const EvaluatedModel& before) const {
+    if (mayBeOtherStruts(after)) return false;
+    const auto takesAll = [&](double lowest) {
+      return std::min(shareOf(base_, after, lowest), shareOf(before, after, lowest)) > 1.0 - kStructured;
+    };
+    const double lowest = std::hypot(result_.noise_floor, lostInSampling(records_, after.fit));
+    if (takesAll(lowest)) return true;
+    // The rest may be noise that a sensor has filtered. Where only the reading is to be at fault, that has been there
+    // before: no law hid it.
+    const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
+    return !only_reading && takesAll(floorOf(after, lowest));
+  }
+
+  /// A suspect makes the error smaller by more than half (kMostOfIt of its mean square).
+  bool isSuspect(const EvaluatedModel& after) const {
+    return !mayBeOtherStruts(after) && shareOf(base_, after, 0.0) > kMostOfIt;
+  }
+
+  /// @return true if other struts of the same body may have done what is taken for something else: on a body that the
+  /// strut itself turns, see shareOfTurning(), they imitate any fault of its IMU but an offset, and forces on the body.
+  bool mayBeOtherStruts(const EvaluatedModel& after) const {
+    if (turning_share_ <= kWorthHaving) return false;
+    const StrutModel &given = base_.ranked.model, &model = after.ranked.model;
+    return std::any_of(model.effects.begin() + static_cast<std::ptrdiff_t>(given.effects.size()), model.effects.end(),
+                       actsOnBody) ||
+           std::any_of(model.reading.begin() + static_cast<std::ptrdiff_t>(given.reading.size()), model.reading.end(),
+                       [](const ActiveMeasurementEffect& fault) { return fault.effect.name != "accelerometer_bias"; });
+  }
+
+  void conclude(const EvaluatedModel& last) {
+    if (!suspect_) result_.noise_floor = floorOf(base_, result_.noise_floor);  // else a law takes a part of it
+    result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
+    if (result_.structured_share > 0.0)
+      result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
+    const std::size_t names = namesBeyond(base_, last).size();
+    const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
+    if (names > 0 && isExplained(last, before)) return name(Verdict::kEffectFound, last);
+    result_.indistinguishable.clear();
+    result_.separating.clear();
+    if (suspect_ && isSuspect(suspect_->chosen)) {
+      noteGroup(*suspect_);
+      result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
+      return name(Verdict::kSuspect, suspect_->chosen);
+    }
+    const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
+    result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+    result_.base.model.is_complete = !structured;
+    if (result_.structured_share > 0.0)
+      result_.folded_share = foldedMotion(records_, base_.ranked.model) /
+                             (std::sqrt(result_.structured_share) * base_.ranked.held_out_rmse);
+    result_.turns_body = turning_share_ > kWorthHaving;
+  }
+
+  void name(Verdict verdict, const EvaluatedModel& model) {
+    result_.verdict = verdict;
+    result_.selected = namesBeyond(base_, model);
+    result_.explained_share = std::min(1.0, shareOf(base_, model, result_.noise_floor));
+    result_.extended = model.ranked;
+    result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
+    result_.final_fit = finalFit(model);
+    if (result_.final_fit)
+      result_.final_fit->model.is_complete = !isStructured(model.ranked.held_out_rmse, result_.noise_floor);
+  }
+
+  // To all samples; if the solver does not get there, the numbers of the fit that was judged are not worse than none.
+  FittedModel finalFit(const EvaluatedModel& last) const {
+    const FitOutcome fit = fitOutputError(records_, {}, last.ranked.model, last.fit.initial);
+    return fit ? FittedModel{fit->model, fit->stddev, true} : FittedModel{last.fit.model, last.fit.stddev, false};
+  }
 
   const Records& records_;
   const DiagnoseOptions& options_;
@@ -77,186 +293,9 @@ class Search {
   EvaluatedModel base_;
   std::optional<Selection> suspect_;    // the best addition to the base
   std::vector<EvaluatedModel> rivals_;  // all that were tried for it
-  std::optional<Explanation> explanation_;
+  double turning_share_ = 0.0;          // shareOfTurning() of the base
   SearchResult result_;
 };
-
-void Search::noteGroup(const Selection& selection) {
-  if (mayBeTilt(selection.chosen.ranked.model, selection.chosen.added, records_)) {
-    Names group = selection.group;
-    if (!contains(group, kTilt)) group.emplace_back(kTilt);
-    result_.indistinguishable.push_back(group);
-    result_.separating.push_back({group, DriveKind::kAtRest, 0.0, 0.0});
-    return;
-  }
-  if (selection.group.size() < 2) return;
-  result_.indistinguishable.push_back(selection.group);
-  result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen), selection));
-}
-
-// What the first effect explained, the later ones may explain better together.
-EvaluatedModel Search::withoutSuperfluous(EvaluatedModel current) const {
-  const std::string newest = current.added;
-  for (const std::string& name : namesBeyond(base_, current)) {
-    if (name == newest) continue;
-    const EvaluatedModel without = evaluator_.without(current, name);
-    if (without.ranked.fitted && !evaluator_.isWorthHaving(without, current)) current = without;
-  }
-  return current;
-}
-
-// Each effect was chosen before the later ones were known: is it still the one, and with which others is it confused?
-EvaluatedModel Search::reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick) {
-  for (const std::string& name : added) {
-    const EvaluatedModel without = evaluator_.without(current, name);
-    if (!without.ranked.fitted) continue;
-    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(without, tick);
-    if (ranking.empty() || !ranking.front().ranked.fitted) continue;
-    const Selection selection = select(ranking, evaluator_.heldOut());
-    noteGroup(selection);
-    if (!contains(selection.group, name) ||
-        complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
-      current = selection.chosen;
-  }
-  return current;
-}
-
-// A sensor's fault is one on any drive: what helps only beside other effects imitates a part of theirs.
-bool Search::standsAlone(const EvaluatedModel& candidate) const {
-  const std::vector<ActiveMeasurementEffect>& readings = candidate.ranked.model.reading;
-  if (!candidate.ranked.significant || readings.empty() || readings.back().effect.name != candidate.added) return true;
-  StrutModel alone = base_.ranked.model;
-  alone.reading.push_back(readings.back());
-  const EvaluatedModel evaluated = evaluator_.evaluate(alone, base_.fit.initial, &base_);
-  return evaluated.ranked.significant;
-}
-
-// Forward selection: the best addition as long as it pays.
-// @param round  how many the model has already.
-EvaluatedModel Search::extend(EvaluatedModel current, int round) {
-  for (; round < options_.most_effects; ++round) {
-    const double done = kStarted + kForward * round / options_.most_effects;
-    const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
-    std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
-    if (round > 0)
-      ranking.erase(std::remove_if(ranking.begin(), ranking.end(),
-                                   [this](const EvaluatedModel& each) { return !standsAlone(each); }),
-                    ranking.end());
-    if (round == 0) result_.ranking = asReported(ranking);
-    if (ranking.empty() || !ranking.front().ranked.fitted) break;
-    if (current.ranked.held_out_rmse < accuracyOfFreeRuns(records_)) break;
-    // Whatever a free run leaves of data that it was not fitted to is above the floor.
-    result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
-    if (!ranking.front().ranked.significant) break;
-    const Selection selection = select(ranking, evaluator_.heldOut());
-    if (round == 0) {
-      suspect_ = selection;
-      rivals_ = std::move(ranking);
-    }
-    current = withoutSuperfluous(selection.chosen);
-  }
-  return current;
-}
-
-// Of several effects that which explains most alone need not be one: a law with more numbers takes some of each. So
-// every other that was fitted has its turn at being the first.
-EvaluatedModel Search::extendRivals(EvaluatedModel best) {
-  for (const EvaluatedModel& rival : rivals_) {
-    if (!rival.ranked.significant || contains(namesBeyond(base_, best), rival.added)) continue;
-    const EvaluatedModel other = extend(rival, 1);
-    if (other.loss < best.loss && complexity(other.ranked.model) <= complexity(best.ranked.model)) best = other;
-  }
-  return best;
-}
-
-// Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
-EvaluatedModel Search::refine(EvaluatedModel current) {
-  const Names found = namesBeyond(base_, current);
-  const bool only_suspect = found.size() == 1 && found.front() == suspect_->chosen.added;
-  if (only_suspect) noteGroup(*suspect_);
-  for (bool changed = !found.empty() && !only_suspect; changed;) {
-    result_.indistinguishable.clear();
-    result_.separating.clear();
-    const auto tick = [this](double) { report(kStarted + kForward); };
-    current = reconsidered(current, namesBeyond(base_, current), tick);
-    const std::size_t before = current.ranked.effects.size();
-    current.added.clear();  // none is too new to go
-    current = withoutSuperfluous(current);
-    changed = current.ranked.effects.size() < before;
-  }
-  return current;
-}
-
-// To all samples; if the solver does not get there, the numbers of the fit that was judged are not worse than none.
-FittedModel Search::finalFit(const EvaluatedModel& last) const {
-  const FitOutcome fit = fitOutputError(records_, {}, last.ranked.model, last.fit.initial);
-  return fit ? FittedModel{fit->model, fit->stddev, true} : FittedModel{last.fit.model, last.fit.stddev, false};
-}
-
-void Search::conclude(const EvaluatedModel& last) {
-  if (!suspect_)
-    result_.noise_floor = explanation_->floorOf(base_, result_.noise_floor);  // else a law takes a part of it
-  result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
-  if (result_.structured_share > 0.0)
-    result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
-  const std::size_t names = namesBeyond(base_, last).size();
-  const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
-  if (names > 0 && explanation_->isExplained(last, before, result_.noise_floor))
-    return name(Verdict::kEffectFound, last);
-  result_.indistinguishable.clear();
-  result_.separating.clear();
-  if (suspect_ && explanation_->isSuspect(suspect_->chosen)) {
-    noteGroup(*suspect_);
-    result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
-    return name(Verdict::kSuspect, suspect_->chosen);
-  }
-  const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
-  result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
-  result_.base.model.is_complete = !structured;
-  if (result_.structured_share > 0.0)
-    result_.folded_share =
-        foldedMotion(records_, base_.ranked.model) / (std::sqrt(result_.structured_share) * base_.ranked.held_out_rmse);
-  result_.turns_body = explanation_->turningShare() > kWorthHaving;
-}
-
-void Search::name(Verdict verdict, const EvaluatedModel& model) {
-  result_.verdict = verdict;
-  result_.selected = namesBeyond(base_, model);
-  result_.explained_share = std::min(1.0, explanation_->share(model, result_.noise_floor));
-  result_.extended = model.ranked;
-  result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
-  result_.final_fit = finalFit(model);
-  if (result_.final_fit)
-    result_.final_fit->model.is_complete = !isStructured(model.ranked.held_out_rmse, result_.noise_floor);
-}
-
-SearchResult Search::run(const ModelFit& rough) {
-  base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
-  if (!base_.ranked.fitted && lagged_) base_ = evaluator_.asItIs(rough);
-  if (!base_.ranked.fitted) {
-    result_.shortcoming = Shortcoming::kNoStableFit;
-    return result_;
-  }
-  report(kStarted);
-  result_.base = base_.ranked;
-  result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
-  result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
-  explanation_.emplace(records_, evaluator_, base_);
-  EvaluatedModel last = extend(base_, 0);
-  if (namesBeyond(base_, last).size() > 1) last = extendRivals(last);
-  last = refine(last);
-  // What several names explain no better than one does, one explains.
-  if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
-    result_.indistinguishable.clear();
-    result_.separating.clear();
-    last = suspect_->chosen;
-    noteGroup(*suspect_);
-  }
-  result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
-  conclude(last);
-  report(1.0);
-  return result_;
-}
 
 SearchResult without(Shortcoming shortcoming) {
   SearchResult nothing;
