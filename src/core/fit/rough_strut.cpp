@@ -10,14 +10,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLag = 0.01;
-
 // The first blocks that are tried, over the length that is asked for, and by how much of it the body's clock is taken
 // for late. A short drive has no three blocks of that length. Struts that bounce far slower or faster than it is for
 // come last.
-constexpr std::pair<double, double> kTrials[] = {{1.0, 0.0},        {1.0, kLag},        {1.0, -kLag},
-                                                 {1.0, 2.0 * kLag}, {1.0, -2.0 * kLag}, {0.5, 0.0},
-                                                 {8.0, 0.0},        {0.125, 0.0},       {1.0 / 32.0, 0.0}};
+constexpr std::pair<double, double> kTrials[] = {{1.0, 0.0}, {1.0, 0.01}, {1.0, -0.01}, {1.0, 0.02},      {1.0, -0.02},
+                                                 {0.5, 0.0}, {8.0, 0.0},  {0.125, 0.0}, {1.0 / 32.0, 0.0}};
 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
   BlockOptions options;

@@ -6,19 +6,18 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFarOut = 1.5;           // mean deviations from the mean: as far as a sine's peak
-constexpr double kFineResolution = 0.02;  // step over span of a sensor whose repeated values mean something
-constexpr double kBandOfSpan = 0.02;
+constexpr double kFarOut = 1.5;     // mean deviations from the mean: as far as a sine's peak
+constexpr double kFine = 0.02;      // of the span: a band at its end, and the step below which repeated values mean something
 constexpr double kBandSteps = 8.5;  // eight steps, however their differences are rounded
 
 }  // namespace
 
 void RangeEnd::add(double reading, const ReadingStatistics& all, double span) {
-  count(reading, std::max(kBandOfSpan * span, kBandSteps * all.finestStep()));
+  count(reading, std::max(kFine * span, kBandSteps * all.finestStep()));
   countFlatTops(reading, all);
   if (!in_flat_top_ || flat_tops_ > 1 || all.equalInARow() < ReadingStatistics::kStuck) {
     const bool far_out = std::abs(reading - all.mean()) > kFarOut * all.deviation();
-    const bool fine = all.finestStep() < kFineResolution * span;
+    const bool fine = all.finestStep() < kFine * span;
     // A sensor that reads 0 is dead: no range ends there.
     if (in_flat_top_ && all.areUsual() && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kAgain))
       limit_ = reading;

@@ -58,7 +58,6 @@ constexpr double kPart = 2.0;    // [s]
 constexpr double kFewest = 5.0;  // parts: ten seconds
 constexpr double kMost = 60.0;   // parts that count: two minutes
 constexpr double kOtherAxis = M_PI / 4.0;
-constexpr double kRoundsToUsual = kUsualLean - 0.5 / 180.0 * M_PI;
 
 }  // namespace
 
@@ -86,7 +85,8 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   return found;
 }
 
-bool MountClaim::Finding::isLeaning() const { return lean > kRoundsToUsual + kProven * lean_stddev; }
+// From what rounds to kUsualLean on.
+bool MountClaim::Finding::isLeaning() const { return lean > kUsualLean - 0.5 / 180.0 * M_PI + kProven * lean_stddev; }
 
 bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kOtherAxis; }
 

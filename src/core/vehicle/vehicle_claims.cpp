@@ -226,7 +226,6 @@ const std::vector<double> kFactors{0.6, 0.8, 1.0, 1.2, 1.4, 1.6}, kOtherSign{-1.
 const std::vector<double> kDelays{-0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05};
 const std::vector<double> kShifts{-0.4, -0.2, 0.0, 0.2, 0.4};  // of the wheelbase, or of the track
 
-constexpr int kFewestOfHalf = 4;       // of the blocks
 constexpr double kLeastTurning = 0.1;  // of the heave that wheels pass on
 constexpr double kLeastSpread = 0.1;   // of the larger of wheelbase and track
 
@@ -272,7 +271,7 @@ bool VehicleMistake::isContradiction() const {
 // half.
 bool VehicleClaims::hasDeadGyro() const {
   const Eigen::Index count = (blocks_ + 1) / 2;
-  if (places_.empty() || count < kFewestOfHalf) return false;
+  if (places_.empty() || count < kFewestBlocks / 2) return false;
   Eigen::MatrixXd wheels = Eigen::MatrixXd::Zero(n_, n_), tops = wheels;
   for (const Eigen::MatrixXcd& columns : columns_) {
     const auto wheel = columns.topLeftCorner(n_, count), top = columns.block(n_, 0, n_, count);

@@ -180,12 +180,6 @@ VehicleLayout takeVehicle(OptionMap& values) {
   return layout;
 }
 
-namespace {
-
-constexpr std::size_t kSixAxes = 6;
-
-}  // namespace
-
 VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
   const auto add = [&](const std::string& topic, Place place, std::size_t count, const std::string& setting) {
     sensors.push_back({topic, place, options.size(), setting});
@@ -196,7 +190,7 @@ VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
                                       [](const VehicleLayout::Strut& strut) { return !strut.sprung_imu; });
   if (needs_body) {
     if (!layout.body_imu) throw std::invalid_argument("body_imu is missing: a strut has no sprung_imu");
-    channels.body_imu = add(*layout.body_imu, Place::kBody, kSixAxes, "body_imu");
+    channels.body_imu = add(*layout.body_imu, Place::kBody, 2 * 3, "body_imu");
   }
   for (const VehicleLayout::Strut& strut : layout.struts) {
     const std::string where = "struts/" + strut.name;

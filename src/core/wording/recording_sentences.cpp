@@ -50,9 +50,9 @@ std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& en
 }
 
 std::string describeNoPeriod(const std::string& where, std::size_t count) {
-  constexpr std::size_t kFewest = PeriodMeasurement::kFewestOfRecording;
-  return "the sample period cannot be measured: fewer than " + std::to_string(kFewest) + " increasing stamps " + where +
-         " (of " + std::to_string(count) + " readings; " + std::to_string(kFewest + 1) + " of each are enough)";
+  const std::size_t fewest = PeriodMeasurement::kFewestOfRecording;
+  return "the sample period cannot be measured: fewer than " + std::to_string(fewest) + " increasing stamps " + where +
+         " (of " + std::to_string(count) + " readings; " + std::to_string(fewest + 1) + " of each are enough)";
 }
 
 std::string describeNoStart(const std::string& where) {
@@ -73,10 +73,9 @@ std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& gr
 }
 
 std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing) {
-  constexpr double kMostFilled = StreamResampler::kSlowest;  // samples made of one reading
-  if (!spacing || *spacing <= kMostFilled * sample_period) return {};
+  if (!spacing || *spacing <= StreamResampler::kSlowest * sample_period) return {};
   return formatted("sample_period = %.9g [s], must be at least %.6g: the stamps come every %.6g s", sample_period,
-                   *spacing / kMostFilled, *spacing);
+                   *spacing / StreamResampler::kSlowest, *spacing);
 }
 
 std::string describeReference(const Baseline& baseline, const std::string& file) {
