@@ -67,7 +67,7 @@ void printLinear(const char* kind, unsigned seed, const Setup& how) {
       inside += courses[i][j].inside;
       count += static_cast<double>(courses[i][j].off.size());
     }
-    const IdentifiedStrut& whole_drive = found.struts[i].estimate;
+    const StrutEstimate& whole_drive = found.struts[i].estimate;
     whole +=
         std::abs(whole_drive.damping_to_mass - driven.vehicle.b1(i)) < kInterval * whole_drive.damping_to_mass_stddev
             ? 1

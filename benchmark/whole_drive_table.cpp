@@ -81,7 +81,7 @@ void printTable(int seeds, double seconds) {
       });
       IdentifyOptions options;
       options.horizon_samples = horizon;
-      const IdentifiedStrut found = identify({readings}, options).estimate;
+      const StrutEstimate found = identify({readings}, options).estimate;
       least_squares[0] += ls.parameters()[0] / clean.damping_to_mass - 1.0;
       least_squares[1] += ls.parameters()[1] / clean.stiffness_to_mass - 1.0;
       errors[0].add(found.damping_to_mass, found.damping_to_mass_stddev, clean.damping_to_mass);
@@ -126,8 +126,8 @@ void printField(int seeds, double seconds) {
           FieldSimulator simulator(drive);
           Drive readings;
           while (simulator.time() < seconds) readings.samples.push_back(simulator.next());
-          const IdentifiedStrut found = identify({readings}).estimate;
-          if (!found.valid) continue;
+          const StrutEstimate found = identify({readings}).estimate;
+          if (!found.valid()) continue;
           ++valid;
           errors[0].add(found.damping_to_mass, found.damping_to_mass_stddev, vehicle.b1);
           errors[1].add(found.stiffness_to_mass, found.stiffness_to_mass_stddev, vehicle.b0);

@@ -15,7 +15,7 @@ int main() {
        {std::pair("estimate", result.estimate), std::pair("ls", result.ls), std::pair("la", result.la)})
     std::printf("%s: damping/mass %.3f +- %.3f 1/s, stiffness/mass %.2f +- %.2f 1/s^2%s\n", name, found.damping_to_mass,
                 1.96 * found.damping_to_mass_stddev, found.stiffness_to_mass, 1.96 * found.stiffness_to_mass_stddev,
-                found.valid ? "" : (", not valid: " + found.reason).c_str());
+                found.valid() ? "" : (", not valid: " + shm::describe(found.doubt)).c_str());
   for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
-  return result.estimate.valid ? 0 : 1;
+  return result.estimate.valid() ? 0 : 1;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -12,24 +11,6 @@
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// What one estimator knows of the strut. NaN: nothing.
-struct IdentifiedStrut {
-  double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
-  double stiffness_to_mass = std::nan("");         ///< b0 = K/M [1/s^2]
-  double damping_to_mass_stddev = std::nan("");    ///< [1/s]: 1.96 of it either way holds the truth 95 times of 100
-  double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
-  double rows = 0.0;                               ///< regression rows, or blocks, that the estimate rests on
-  double explained = std::nan("");                 ///< share of the body's motion that the strut explains, at most 1
-  double age = std::nan("");  ///< of the newest data [s]; of the block estimates, at the end of the drive
-  bool valid = false;
-  std::string reason;  ///< why it is not valid; empty if it is
-
-  /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
-  double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }
-  /// Damping ratio b1 / (2 sqrt(b0)) [-]; NaN unless b0 > 0.
-  double dampingRatio() const { return damping_to_mass / (2 * std::sqrt(stiffness_to_mass)); }
-};
 
 struct IdentifyOptions {
   std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
@@ -43,10 +24,11 @@ struct IdentifyResult {
   double sample_period = 0.0;  ///< T [s]
   int horizon_samples = 0;     ///< L
   /// At the end of the drive, over the memory: least squares and least sum of absolute values, as the live monitor has
-  /// them.
-  IdentifiedStrut ls, la;
-  IdentifiedStrut estimate;                       ///< of the blocks over the whole drive: what to trust
-  IdentifiedStrut now;                            ///< of the blocks at the end of the drive, as the live monitor has it
+  /// them; but in all of these 1.96 standard deviations either way hold the truth 95 times of 100: what no model has
+  /// (StrutEstimate::damping_model_stddev) is in them.
+  StrutEstimate ls, la;
+  StrutEstimate estimate;                         ///< of the blocks over the whole drive: what to trust
+  StrutEstimate now;                              ///< of the blocks at the end of the drive, as the live monitor has it
   std::uint64_t samples = 0;                      ///< taken in
   std::uint64_t rows = 0;                         ///< regression rows that they gave
   std::uint64_t gaps = 0;                         ///< after each of which the filter filled anew
@@ -63,7 +45,7 @@ struct IdentifyResult {
 ///
 ///     const Drive drive = makeDrive(0.01, body, wheel);       // accelerations [m/s^2], 100 Hz
 ///     const IdentifyResult result = identify({drive});
-///     if (result.estimate.valid) use(result.estimate.damping_to_mass, result.estimate.stiffness_to_mass);
+///     if (result.estimate.valid()) use(result.estimate.damping_to_mass, result.estimate.stiffness_to_mass);
 ///
 /// @param drives  of the same strut, taken one after the other.
 /// @throws std::invalid_argument  naming the option, its value and what is allowed; if no drive has two samples; or if

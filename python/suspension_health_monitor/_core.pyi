@@ -180,14 +180,14 @@ class Identification:
     change: str  # against nominal values, in a sentence; empty: none are given
     clock_jumps: int
     course: Course  # estimates over time
-    estimate: IdentifiedStrut  # over the whole drive: what to trust
+    estimate: StrutEstimate  # over the whole drive: what to trust
     gaps: int
     horizon_samples: int  # L of the integral filter
-    iv: IdentifiedStrut  # estimate, by its former name, until the next version
-    la: IdentifiedStrut  # the same by the least sum of absolute values
-    ls: IdentifiedStrut  # at the end of the drive, by least squares
+    iv: StrutEstimate  # estimate, by its former name, until the next version
+    la: StrutEstimate  # the same by the least sum of absolute values
+    ls: StrutEstimate  # at the end of the drive, by least squares
     mean_period: float  # of uninterrupted samples [s]
-    now: IdentifiedStrut  # the same at the end of the drive, as the live monitor has it
+    now: StrutEstimate  # the same at the end of the drive, as the live monitor has it
     rejected: Dict[str, int]  # readings that were kept out, by reason
     rows: int  # regression rows that they gave
     sample_period: float  # T [s]
@@ -197,19 +197,6 @@ class Identification:
     warnings: List[str]  # of sensors and stamps, in words
     def plot(self, axes: Any = ...) -> Any: ...
     def _repr_html_(self) -> str: ...
-
-class IdentifiedStrut:
-    age: float  # of the newest data behind estimate [s]; else NaN
-    damping_ratio: float  # [-]
-    damping_to_mass: float  # b1 = damping/mass [1/s]
-    damping_to_mass_stddev: float  # [1/s]
-    explained: float  # share of the body's motion that the strut explains
-    natural_frequency: float  # undamped [Hz]
-    reason: str  # why it is not valid; empty if it is
-    rows: float  # regression rows, or blocks, that the estimate rests on
-    stiffness_to_mass: float  # b0 = stiffness/mass [1/s^2]
-    stiffness_to_mass_stddev: float  # [1/s^2]
-    valid: bool
 
 class InputStatus:
     clock_jumps: int

@@ -159,8 +159,7 @@ def install():
             (_core.Comparison, _comparison, _comparison_html), (_core.Diagnosis, _diagnosis, _diagnosis_html),
             (_core.StrutModel, _model, _model_table), (_core.Simulation, _simulation, _simulation_html)):
         cls.__repr__, cls._repr_html_ = in_line, in_notebook
-    for cls in (_core.StrutEstimate, _core.IdentifiedStrut):
-        cls.__repr__ = lambda self: f"<{type(self).__name__}: {_estimate(self)}>"
+    _core.StrutEstimate.__repr__ = lambda self: f"<{type(self).__name__}: {_estimate(self)}>"
     _core.PredictionError.__repr__ = \
         lambda self: f"<rmse {_number(self.rmse)} m/s^2, fit {_number(self.fit_percent)} %>"
     _core.Effect.__repr__ = lambda self: f"<Effect {self.name}: {self.law}>"

@@ -1,13 +1,25 @@
 #include "suspension_health_monitor/identify.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/monitor/drive_identification.h"
+#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+StrutEstimate withAbsoluteStddev(StrutEstimate estimate) {
+  estimate.damping_to_mass_stddev = estimate.dampingAbsoluteStddev();
+  estimate.stiffness_to_mass_stddev = estimate.stiffnessAbsoluteStddev();
+  estimate.damping_model_stddev = estimate.stiffness_model_stddev = 0.0;
+  return estimate;
+}
 
 int proposeHorizon(const std::vector<Drive>& drives, double period) {
   if (const auto rough = roughStrut(drives, period)) return rough->horizonSamples(period);
@@ -39,6 +51,46 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
       strut.push(Side::kUnsprung, sample.stamp + kLater, sample.unsprung_acceleration);
     }
   return identified(*strut.strut(), strut.overTheDrive(), strut.rejected());
+}
+
+std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
+  if (monitor.input().period_fits) return std::nullopt;
+  return formatted(
+      "stamps come every %.6g s, but sample_period = %.6g [s]: ls and la are not valid; leave sample_period "
+      "out to have it measured",
+      monitor.input().mean_period, monitor.period());
+}
+
+IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate& over_the_drive,
+                          const RejectCounts& rejected) {
+  IdentifyResult result;
+  result.sample_period = monitor.period();
+  result.horizon_samples = monitor.horizonSamples();
+  result.ls = withAbsoluteStddev(monitor.report().ls);
+  result.la = withAbsoluteStddev(monitor.report().la);
+  result.estimate = withAbsoluteStddev(over_the_drive);
+  result.now = withAbsoluteStddev(monitor.report().estimate);
+  result.estimate.age = result.now.age;
+  result.samples = monitor.input().samples;
+  result.rows = monitor.input().rows;
+  result.gaps = monitor.input().gaps;
+  result.clock_jumps = monitor.input().restarts;
+  result.rejected = rejected.byName();
+  if (const auto warning = periodWarning(monitor)) result.warnings.push_back(*warning);
+  const SensorReport& sensor = monitor.report().health.sensor;
+  if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated)
+    result.warnings.push_back(describe(sensor));
+  if (!result.isSteady()) result.warnings.push_back(describeUnsteady(result.estimate, result.now));
+  return result;
+}
+
+bool IdentifyResult::isSteady() const {
+  const auto agree = [this](double StrutEstimate::*value, double StrutEstimate::*stddev) {
+    return std::abs(estimate.*value - now.*value) <= kCertain * std::hypot(estimate.*stddev, now.*stddev);
+  };
+  return !estimate.valid() || !now.valid() ||
+         (agree(&StrutEstimate::damping_to_mass, &StrutEstimate::damping_to_mass_stddev) &&
+          agree(&StrutEstimate::stiffness_to_mass, &StrutEstimate::stiffness_to_mass_stddev));
 }
 
 }  // namespace suspension_health_monitor

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "suspension_health_monitor/internal/setting_groups.h"
@@ -16,11 +17,7 @@ namespace {
 constexpr std::size_t kLongestName = 200;  // with its groups
 
 /// Names that were options once, separated by spaces, and what serves instead.
-struct FormerOptions {
-  std::string_view names, instead;
-};
-
-constexpr FormerOptions kFormerOptions[] = {
+constexpr std::pair<std::string_view, std::string_view> kFormerOptions[] = {
     {"integration_rule forgetting_rule initial_variance initial_variance_rule la/start_rows la/small_divisor_rule "
      "la/small_divisor la/scale_covariance_at_start",
      "preset: paper has the paper's value"},
@@ -104,21 +101,18 @@ std::optional<std::string> asText(const OptionValue& value) {
   return std::nullopt;
 }
 
-// Copies a value into an option of the same kind; false if the kinds differ.
-struct Assigner {
-  const OptionValue& value;
-  bool operator()(bool* target) const { return copy(target, asBool(value)); }
-  bool operator()(std::string* target) const { return copy(target, asText(value)); }
-  bool operator()(int* target) const { return copy(target, asWhole(value)); }
-  bool operator()(double* target) const { return copy(target, asNumber(value)); }
-  bool operator()(std::optional<double>* target) const { return copy(target, asNumber(value)); }
-
-  template <class Target, class Source>
-  static bool copy(Target* target, const Source& source) {
-    if (source) *target = *source;
-    return static_cast<bool>(source);
-  }
-};
+/// @return the value as one of the kind of an option; nothing if the kinds differ.
+template <class Kind>
+auto as(const OptionValue& value) {
+  if constexpr (std::is_same_v<Kind, bool>)
+    return asBool(value);
+  else if constexpr (std::is_same_v<Kind, std::string>)
+    return asText(value);
+  else if constexpr (std::is_same_v<Kind, int>)
+    return asWhole(value);
+  else
+    return asNumber(value);
+}
 
 }  // namespace
 
@@ -129,7 +123,12 @@ std::optional<OptionValue> valueOf(const Bound& option) {
 }
 
 void assign(const Bound& option, const OptionValue& value) {
-  if (!std::visit(Assigner{value}, option.member)) refuse(option, value);
+  const auto copy = [&](auto* target) {
+    const auto source = as<std::decay_t<decltype(*target)>>(value);
+    if (source) *target = *source;
+    return source.has_value();
+  };
+  if (!std::visit(copy, option.member)) refuse(option, value);
 }
 
 void check(const Bound& option) {
@@ -161,9 +160,8 @@ void requireNameLength(const std::string& name) {
 void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known) {
   if (values.empty()) return;
   const std::string& name = values.begin()->first;
-  for (const FormerOptions& former : kFormerOptions)
-    if (isChoice(former.names, name))
-      throw std::invalid_argument(name + " is no option any more: " + std::string(former.instead));
+  for (const auto& [names, instead] : kFormerOptions)
+    if (isChoice(names, name)) throw std::invalid_argument(name + " is no option any more: " + std::string(instead));
   requireNameLength(name);
   throw std::invalid_argument("unknown option " + shortened(name) + " = " + format(values.begin()->second) +
                               suggestNearest(name, namesOf(known)));

@@ -47,20 +47,13 @@ Baseline toBaseline(const BaselineState& state) {
   return {b1, b0, sd1, sd0, scatter1, scatter0, toFriction(friction), warm, learned, Stamp(from), Stamp(to)};
 }
 
-/// Adds what the estimates of a drive and those of the live monitor have alike.
-template <class Strut>
-ResultClass<Strut>& addOscillation(ResultClass<Strut>&& strut) {
-  return strut.add("natural_frequency", &Strut::naturalFrequency).add("damping_ratio", &Strut::dampingRatio);
-}
-
 void bindEstimates(py::module& module) {
-  addOscillation(
-      ResultClass<IdentifiedStrut>(module, "IdentifiedStrut", "What one estimator knows of the strut; NaN: nothing."));
   ResultClass<DamperTemperature>(module, "DamperTemperature", "How damping goes with the damper's temperature.");
   ResultClass<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
       .add("damping_covariance", &DryFriction::damping_covariance);
-  addOscillation(ResultClass<StrutEstimate>(module, "StrutEstimate",
-                                            "What one estimator of the live monitor knows; NaN: nothing yet."))
+  ResultClass<StrutEstimate>(module, "StrutEstimate", "What one estimator knows of the strut; NaN: nothing yet.")
+      .add("natural_frequency", &StrutEstimate::naturalFrequency)
+      .add("damping_ratio", &StrutEstimate::dampingRatio)
       .add("valid", &StrutEstimate::valid)
       .add("rows", &StrutEstimate::effective_rows)
       .addArray("coefficients",

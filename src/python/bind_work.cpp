@@ -45,8 +45,8 @@ Identification identifyArrays(const Recordings& recordings, const Keywords& keyw
   const auto take = [&](Side side, Stamp stamp, double value) { made.push(side, stamp, value); };
   forEachReading(recordings, shift, work, take, [] {});
   const IdentifyResult result = identified(monitorOf(made), made.overTheDrive(), made.rejected());
-  if (!is_given && !options.integration_horizon && !result.estimate.valid && !result.now.valid)
-    throw std::invalid_argument("no estimate is valid: " + result.estimate.reason +
+  if (!is_given && !options.integration_horizon && !result.estimate.valid() && !result.now.valid())
+    throw std::invalid_argument("no estimate is valid: " + describe(result.estimate.doubt) +
                                 describeSuspicions(made.strut()->report(), &made.grid()->streams()) +
                                 "; give integration_horizon to look at them all the same");
   Identification found = Identification::of(result, made, 0, course);

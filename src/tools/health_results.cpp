@@ -4,7 +4,6 @@
 #include "json_of.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
-#include "suspension_health_monitor/internal/monitor/drive_identification.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
@@ -18,7 +17,7 @@ bool isDelayed(const StrutEstimate& estimate) {
 }
 
 void printBlocks(const StrutEstimate& estimate, const std::optional<double>& mass) {
-  printResult("estimate", toIdentified(estimate), mass);
+  printResult("estimate", estimate, mass);
   if (estimate.friction)
     std::printf("    dry friction %.3g +- %.1g m/s^2\n", estimate.friction->force, estimate.friction->stddev);
   if (isDelayed(estimate))
@@ -30,7 +29,7 @@ void printBlocks(const StrutEstimate& estimate, const std::optional<double>& mas
 }
 
 void printRows(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
-  printResult(name, toIdentified(estimate), mass);
+  printResult(name, estimate, mass);
   if (!std::isnan(estimate.offset))
     std::printf("    offset of the wheel carrier's IMU against the body's %.3g m/s^2\n", estimate.offset);
 }
@@ -70,15 +69,8 @@ json secondsJson(const HealthLog& log) {
 }
 
 json estimatesJson(const SuspensionMonitor& monitor) {
-  json estimates;
-  const auto add = [&](const char* name, const StrutEstimate& estimate) {
-    estimates[name] = toJson(toIdentified(estimate));
-    estimates[name].update(jsonOf(estimate));
-  };
-  add("estimate", monitor.report().estimate);
-  add("ls", monitor.report().ls);
-  add("la", monitor.report().la);
-  return estimates;
+  const ModelReport& end = monitor.report();
+  return {{"estimate", toJson(end.estimate)}, {"ls", toJson(end.ls)}, {"la", toJson(end.la)}};
 }
 
 json toJson(const HealthLog& log, const SuspensionMonitor& monitor) {

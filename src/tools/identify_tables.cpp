@@ -14,7 +14,7 @@ std::string cell(int width, int precision, double value) {
 }
 
 // A negative stiffness has no frequency.
-std::string describeOscillation(const IdentifiedStrut& estimate) {
+std::string describeOscillation(const StrutEstimate& estimate) {
   if (!(estimate.stiffness_to_mass > 0.0)) return "no natural frequency";
   return cell(0, 3, estimate.naturalFrequency()) + " Hz, damping ratio " + cell(0, 3, estimate.dampingRatio());
 }
@@ -39,15 +39,15 @@ void printTable(const std::vector<MonitorReport>& reports) {
                 report.estimate.valid() ? "yes" : "no");
 }
 
-void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass) {
-  const std::string doubt = estimate.valid ? "" : "  NOT VALID: " + estimate.reason;
+void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
+  const std::string doubt = estimate.valid() ? "" : "  NOT VALID: " + describe(estimate.doubt);
   if (std::isnan(estimate.damping_to_mass)) {
     std::printf("%s: nothing is known%s\n", name, doubt.c_str());
     return;
   }
   std::printf("%s: damping/mass %s +- %s 1/s, stiffness/mass %s +- %s 1/s^2, %s%s\n", name,
-              cell(0, 4, estimate.damping_to_mass).c_str(), cell(0, 4, estimate.damping_to_mass_stddev).c_str(),
-              cell(0, 4, estimate.stiffness_to_mass).c_str(), cell(0, 4, estimate.stiffness_to_mass_stddev).c_str(),
+              cell(0, 4, estimate.damping_to_mass).c_str(), cell(0, 4, estimate.dampingAbsoluteStddev()).c_str(),
+              cell(0, 4, estimate.stiffness_to_mass).c_str(), cell(0, 4, estimate.stiffnessAbsoluteStddev()).c_str(),
               describeOscillation(estimate).c_str(), doubt.c_str());
   if (mass)
     std::printf("    damping %.4g N s/m, stiffness %.5g N/m\n", *mass * estimate.damping_to_mass,
@@ -55,15 +55,18 @@ void printResult(const char* name, const IdentifiedStrut& estimate, const std::o
 }
 
 void printEstimates(const IdentifyResult& found, const std::optional<double>& mass) {
-  std::printf("over the whole drive, %.0f blocks:\n", found.estimate.rows);
+  std::printf("over the whole drive, %.0f blocks:\n", found.estimate.effective_rows);
   printResult("estimate", found.estimate, mass);
-  std::printf("at its end, over the last %.0f rows:\n", found.la.rows);
+  std::printf("at its end, over the last %.0f rows:\n", found.la.effective_rows);
   printResult("LS", found.ls, mass);
   printResult("LA", found.la, mass);
 }
 
-nlohmann::json toJson(const IdentifiedStrut& estimate) {
+nlohmann::json toJson(const StrutEstimate& estimate) {
   nlohmann::json result = jsonOf(estimate);
+  result["rows"] = estimate.effective_rows;
+  result["valid"] = estimate.valid();
+  result["reason"] = estimate.valid() ? "" : describe(estimate.doubt);
   result["natural_frequency"] = estimate.naturalFrequency();
   result["damping_ratio"] = estimate.dampingRatio();
   return result;

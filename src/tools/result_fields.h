@@ -30,9 +30,6 @@ BOOST_HANA_ADAPT_STRUCT(shm::Baseline, damping_to_mass, stiffness_to_mass, dampi
                         stiffness_to_mass_stddev, damping_scatter, stiffness_scatter, friction, temperature, learned);
 BOOST_HANA_ADAPT_STRUCT(shm::HealthMoment, elapsed, level, message);
 
-BOOST_HANA_ADAPT_STRUCT(shm::IdentifiedStrut, damping_to_mass, stiffness_to_mass, damping_to_mass_stddev,
-                        stiffness_to_mass_stddev, rows, explained, age, valid, reason);
-
 BOOST_HANA_ADAPT_STRUCT(shm::ModelNumber, name, effect, symbol, unit, value);
 BOOST_HANA_ADAPT_STRUCT(shm::StrutModel, damping_to_mass, stiffness_to_mass);
 BOOST_HANA_ADAPT_STRUCT(shm::FittedModel, model, stddev, all_samples);

@@ -21,7 +21,7 @@ namespace suspension_health_monitor {
 void printTable(const std::vector<MonitorReport>& reports);
 
 /// @param name  of the estimator.  @param mass  of the body [kg], for damping and stiffness in SI.
-void printResult(const char* name, const IdentifiedStrut& estimate, const std::optional<double>& mass);
+void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass);
 
 /// Over the whole drive, which is what to trust; then LS and LA at its end.
 void printEstimates(const IdentifyResult& found, const std::optional<double>& mass);
@@ -29,7 +29,7 @@ void printEstimates(const IdentifyResult& found, const std::optional<double>& ma
 /// @param change  how the strut is against the healthy one, in a sentence; nothing is told of an empty one.
 void printChange(const std::string& change);
 
-nlohmann::json toJson(const IdentifiedStrut& estimate);
+nlohmann::json toJson(const StrutEstimate& estimate);
 nlohmann::json toJson(const IdentifyResult& found, const std::string& change);
 
 /// @param estimate, strut  by the same estimator.

@@ -55,7 +55,7 @@ std::string head(const std::vector<std::string>& drives, const char* load) {
 }
 
 std::string ownSettings(const StrutOfDrive& found, const char* indent) {
-  const IdentifiedStrut& strut = found.strut;
+  const StrutEstimate& strut = found.strut;
   return formatted("%sintegration_horizon: %.6g  # [s]\n%snominal:  # %s\n", indent, found.horizon, indent,
                    found.by.c_str()) +
          formatted("%s  damping_to_mass: %.6g  # +- %.2g 1/s\n", indent, strut.damping_to_mass,
@@ -123,7 +123,7 @@ std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& opt
     lacks.push_back(formatted("%s is known to %.2g %% only, and %.2g %% are needed for a warning at %.3g %%", name,
                               100.0 * stddev / value, 100.0 * warn / kTold, 100.0 * warn));
   };
-  const IdentifiedStrut& its = strut->strut;
+  const StrutEstimate& its = strut->strut;
   ask("damping/mass", its.damping_to_mass, its.damping_to_mass_stddev, options.damping_warn);
   ask("stiffness/mass", its.stiffness_to_mass, its.stiffness_to_mass_stddev, options.stiffness_warn);
   return join(lacks, "; ");

@@ -104,8 +104,8 @@ TEST(Identify, SaysOfTooFewSamplesThatThereAreTooFew) {
   IdentifyOptions options;
   options.horizon_samples = 30;
   const IdentifyResult result = identify({drive}, options);
-  EXPECT_FALSE(result.estimate.valid);
-  EXPECT_EQ(result.estimate.reason, describe(EstimateDoubt::kNoRows));
+  EXPECT_FALSE(result.estimate.valid());
+  EXPECT_EQ(result.estimate.doubt, EstimateDoubt::kNoRows);
 }
 
 }  // namespace

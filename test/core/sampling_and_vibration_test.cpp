@@ -133,9 +133,9 @@ TEST(Sampling, WithoutAFilterTheEstimateOverTheWholeDriveIsDoubtedOrRight) {
     Drive drive;
     for (std::size_t k = 0; k < body.size(); ++k)
       drive.samples.push_back({fromSeconds(static_cast<double>(k) / kSampled), body[k], wheel[k]});
-    const IdentifiedStrut whole = identify({drive}).estimate;
-    EXPECT_TRUE(whole.valid || !filtered) << whole.reason;
-    if (!whole.valid) continue;
+    const StrutEstimate whole = identify({drive}).estimate;
+    EXPECT_TRUE(whole.valid() || !filtered) << describe(whole.doubt);
+    if (!whole.valid()) continue;
     EXPECT_LT(std::abs(whole.damping_to_mass - 6.0), 3.0 * whole.damping_to_mass_stddev);
     EXPECT_LT(std::abs(whole.stiffness_to_mass - 63.3), 3.0 * whole.stiffness_to_mass_stddev);
   }

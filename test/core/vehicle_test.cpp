@@ -209,8 +209,8 @@ TEST(IdentifiedVehicle, IsEveryStrutsOwn) {
   for (std::size_t i = 0; i < found.struts.size(); ++i) {
     const VehicleStrut& strut = vehicle.struts[i];
     const double own = vehicle.mobility(strut, strut);
-    const IdentifiedStrut& la = found.struts[i].la;
-    EXPECT_TRUE(la.valid) << la.reason;
+    const StrutEstimate& la = found.struts[i].la;
+    EXPECT_TRUE(la.valid()) << describe(la.doubt);
     EXPECT_NEAR(la.damping_to_mass, own * strut.damping, 4.0 * la.damping_to_mass_stddev) << i;
     EXPECT_NEAR(la.stiffness_to_mass, own * strut.stiffness, 4.0 * la.stiffness_to_mass_stddev) << i;
   }

@@ -53,8 +53,8 @@ class CarDrive {
   std::vector<CornerSample> fine_;
 };
 
-void expectTruth(const IdentifiedStrut& strut) {
-  EXPECT_TRUE(strut.valid) << strut.reason;
+void expectTruth(const StrutEstimate& strut) {
+  EXPECT_TRUE(strut.valid()) << describe(strut.doubt);
   EXPECT_LT(std::abs(strut.damping_to_mass - kB1), 3.0 * strut.damping_to_mass_stddev);
   EXPECT_LT(std::abs(strut.stiffness_to_mass - kB0), 3.0 * strut.stiffness_to_mass_stddev);
   EXPECT_NEAR(strut.damping_to_mass, kB1, 0.01 * kB1);
@@ -91,7 +91,7 @@ TEST(WholeDrive, IsFreeOfTheNoiseThatStrutsHaveInCommon) {
       for (std::size_t i = 0; i < found.struts.size(); ++i) {
         const VehicleStrut& strut = vehicle.struts[i];
         const double own = vehicle.mobility(strut, strut);
-        const IdentifiedStrut& estimate = found.struts[i].estimate;
+        const StrutEstimate& estimate = found.struts[i].estimate;
         squares[0] += std::pow((estimate.damping_to_mass - own * strut.damping) / estimate.damping_to_mass_stddev, 2);
         squares[1] +=
             std::pow((estimate.stiffness_to_mass - own * strut.stiffness) / estimate.stiffness_to_mass_stddev, 2);

@@ -41,6 +41,9 @@ Value median(std::vector<Value> values) {
 /// @return the value that a standard normal variable exceeds with this probability.
 double normalQuantile(double probability);
 
+/// @return how many standard errors chance passes in none of `tests` two-sided tests, but with probability kFalseAlarm.
+inline double limitFor(double tests) { return normalQuantile(0.5 * kFalseAlarm / tests); }
+
 /// @return standard deviation of normally distributed errors about 0, by their median magnitude: outliers, as long as
 /// they are fewer than half, change it little.
 inline double robustDeviation(std::vector<double> errors) {

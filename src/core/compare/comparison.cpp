@@ -151,12 +151,6 @@ std::optional<std::vector<StrutState>> settleModel(const Records& records, const
   return std::move(fit->initial);
 }
 
-/// What a free-form law of travel and travel rate, fitted to the rest, would take of what was held out.
-struct TakenByLaw {
-  double share = 0.0;   ///< of the mean square
-  double leaves = 0.0;  ///< rms, which is above the noise floor [m/s^2]
-};
-
 /// The model as it does on what was held out: fitted on the rest, or as it is.
 std::optional<ModelFit> judgedFit(const Records& records, const HoldOut& held_out, const CompareOptions& options,
                                   const std::vector<StrutState>& initial, const Comparison& comparison) {
@@ -205,12 +199,14 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!free_run) return Shortcoming::kTooShort;
   comparison.free_run = *free_run;
   report(0.4);
-  TakenByLaw law;
+  // What a free-form law of travel and travel rate, fitted to the rest, would take of the mean square that was held
+  // out, and the rms that it leaves, which is above the noise floor.
+  double by_law = 0.0, law_leaves = 0.0;
   if (const auto held_out = splitHoldOut(records, comparison.model.stiffness_to_mass)) {
     if (const auto fit = judgedFit(records, *held_out, options, *initial, comparison)) {
       comparison.held_out_rmse = held_out->rmse(held_out->stretchErrors(fit->residuals));
-      law.share = Screening(records, *held_out, *fit).surfaceGain();
-      law.leaves = *comparison.held_out_rmse * std::sqrt(1.0 - law.share);
+      by_law = Screening(records, *held_out, *fit).surfaceGain();
+      law_leaves = *comparison.held_out_rmse * std::sqrt(1.0 - by_law);
     }
     comparison.held_out = heldOutSpans(records, *held_out);
   }
@@ -223,10 +219,10 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
   // What a law of travel and travel rate takes is no noise, whatever its spectrum.
-  comparison.noise_floor = law.share < kStructured
+  comparison.noise_floor = by_law < kStructured
                                ? floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
                                                  residualsOf(comparison.segments), filter.period, comparison.model)
-                               : std::min(comparison.noise_floor, law.leaves);
+                               : std::min(comparison.noise_floor, law_leaves);
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
   const LinearStrut strut = comparison.model.linearPart();

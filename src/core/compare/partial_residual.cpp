@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "residual_series.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
 
 namespace suspension_health_monitor {
@@ -66,11 +65,10 @@ std::vector<double> edgesOver(const std::vector<Sample>& samples, ForceVariable 
   std::vector<double> values;
   values.reserve(samples.size());
   for (const Sample& sample : samples) values.push_back(valueOf(sample.motion, variable));
-  // Single extremes would stretch the axis.
-  const std::vector<double> ends = quantiles(std::move(values), {0.5 * (1.0 - kCovered), 0.5 * (1.0 + kCovered)});
+  const auto [from, to] = coveredRange(std::move(values));
   std::vector<double> edges;
   for (std::size_t i = 0; i <= bins; ++i)
-    edges.push_back(ends[0] + (ends[1] - ends[0]) * static_cast<double>(i) / static_cast<double>(bins));
+    edges.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(bins));
   return edges;
 }
 
@@ -82,52 +80,48 @@ std::size_t rangeOf(const std::vector<double>& edges, double value) {
   return std::min(ranges - 1, static_cast<std::size_t>(above - edges.begin()) - 1);
 }
 
-class Average {
- public:
-  void add(const Sample& sample) {
-    ++count_;
-    const double step = sample.seen - mean_;
-    mean_ += step / static_cast<double>(count_);
-    squares_ += step * (sample.seen - mean_);
-    law_ += (sample.law - law_) / static_cast<double>(count_);
-  }
+/// @param bin  whose deviation is the sum of squares until finish().
+void add(const Sample& sample, PartialResidualBin& bin) {
+  const double share = 1.0 / static_cast<double>(++bin.count), step = sample.seen - bin.mean;
+  bin.mean += share * step;
+  bin.deviation += step * (sample.seen - bin.mean);
+  bin.law += share * (sample.law - bin.law);
+}
 
-  PartialResidualBin bin(double at) const {
-    return {at, mean_, count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : 0.0, law_, count_};
-  }
-
- private:
-  double mean_ = 0.0, squares_ = 0.0, law_ = 0.0;
-  std::size_t count_ = 0;
-};
+void finish(PartialResidualBin& bin) {
+  bin.deviation = bin.count > 1 ? std::sqrt(bin.deviation / static_cast<double>(bin.count - 1)) : 0.0;
+}
 
 /// @param direction  +1 compressing, -1 extending, 0 both.
 std::vector<PartialResidualBin> curveOver(const std::vector<Sample>& samples, ForceVariable variable, int direction) {
   const std::vector<double> edges = edgesOver(samples, variable, kBins);
-  std::vector<Average> averages(kBins + 1);
+  std::vector<PartialResidualBin> curve(kBins + 1);  // the last one for what is outside
   for (const Sample& sample : samples)
     if (direction == 0 || direction * sample.motion.travel_rate > 0.0)
-      averages[rangeOf(edges, valueOf(sample.motion, variable))].add(sample);
-  std::vector<PartialResidualBin> curve;
+      add(sample, curve[rangeOf(edges, valueOf(sample.motion, variable))]);
+  curve.pop_back();
   for (std::size_t i = 0; i < kBins; ++i) {
-    const PartialResidualBin bin = averages[i].bin(0.5 * (edges[i] + edges[i + 1]));
-    if (bin.count >= kFewestInBin) curve.push_back(bin);
+    curve[i].at = 0.5 * (edges[i] + edges[i + 1]);
+    finish(curve[i]);
   }
+  const auto is_empty = [](const PartialResidualBin& bin) { return bin.count < kFewestInBin; };
+  curve.erase(std::remove_if(curve.begin(), curve.end(), is_empty), curve.end());
   return curve;
 }
 
 PartialResidualGrid gridOver(const std::vector<Sample>& samples, ForceVariable first, ForceVariable second) {
   PartialResidualGrid grid{edgesOver(samples, first, kColumns), edgesOver(samples, second, kRows), {}};
-  std::vector<std::vector<Average>> averages(kColumns + 1, std::vector<Average>(kRows + 1));
+  // The last ones for what is outside.
+  grid.cells.assign(kColumns + 1, std::vector<PartialResidualBin>(kRows + 1));
   for (const Sample& sample : samples)
-    averages[rangeOf(grid.first_edges, valueOf(sample.motion, first))]
-            [rangeOf(grid.second_edges, valueOf(sample.motion, second))]
-                .add(sample);
-  for (std::size_t i = 0; i < kColumns; ++i) {
-    grid.cells.emplace_back();
-    for (std::size_t j = 0; j < kRows; ++j) {
-      const PartialResidualBin bin = averages[i][j].bin(0.0);
-      grid.cells.back().push_back(bin.count >= kFewestInCell ? bin : PartialResidualBin{});
+    add(sample, grid.cells[rangeOf(grid.first_edges, valueOf(sample.motion, first))]
+                          [rangeOf(grid.second_edges, valueOf(sample.motion, second))]);
+  grid.cells.pop_back();
+  for (std::vector<PartialResidualBin>& column : grid.cells) {
+    column.pop_back();
+    for (PartialResidualBin& cell : column) {
+      finish(cell);
+      if (cell.count < kFewestInCell) cell = {};
     }
   }
   return grid;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -14,15 +15,12 @@ constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 }  // namespace
 
 PairedTest testPaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
-  double sum = 0.0, squares = 0.0, total = 0.0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const double difference = before[i] - after[i];
-    sum += difference;
-    squares += square(difference);
-    total += before[i];
-  }
-  const auto n = static_cast<double>(before.size());
-  const double variance = std::max(0.0, (squares - sum * sum / n) / (n - 1.0));
+  using Series = Eigen::Map<const Eigen::ArrayXd>;
+  const auto count = static_cast<Eigen::Index>(before.size());
+  const Series whole(before.data(), count);
+  const Eigen::ArrayXd removed = whole - Series(after.data(), count);
+  const double sum = removed.sum(), total = whole.sum(), n = static_cast<double>(count);
+  const double variance = (removed - removed.mean()).square().sum() / (n - 1.0);
   PairedTest result;
   if (total > 0.0) result.removed_share = sum / total;
   if (total > sum && total > 0.0) result.log_ratio = independent * std::log(total / (total - sum));
@@ -113,17 +111,11 @@ double HoldOut::independentSquares(const Residuals& residuals) const {
 }
 
 double HoldOut::trainingError(const Residuals& residuals) const {
-  double sum = 0.0;
-  for (std::size_t segment = 0; segment < training.size(); ++segment)
-    for (std::size_t k = 0; k < training[segment].size(); ++k)
-      if (training[segment][k] != 0) sum += square(residuals[segment][k]);
-  return sum;
+  return joined(training).dot(joined(residuals).cwiseAbs2());
 }
 
 double HoldOut::rmse(const std::vector<double>& stretch_errors) const {
-  double sum = 0.0;
-  for (const double error : stretch_errors) sum += error;
-  return std::sqrt(sum / samples_);
+  return std::sqrt(std::accumulate(stretch_errors.begin(), stretch_errors.end(), 0.0) / samples_);
 }
 
 }  // namespace suspension_health_monitor

@@ -6,63 +6,208 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
-#include "parameterization.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
+#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
+namespace {
 
-std::optional<std::vector<StrutState>> estimateInitialStates(const Records& records, const StrutModel& model) {
-  const FitOutcome at_rest = withoutFit(records, model);
-  if (!at_rest) return std::nullopt;
-  const double size = std::sqrt(meanSquare(at_rest->residuals));
-  std::vector<StrutState> states;
-  for (const DriveSegment* segment : segmentsOf(records)) {
-    const auto stateAt = [&](const double* x) {
-      return StrutState{x[0] * size / model.stiffness_to_mass, x[1] * size / std::sqrt(model.stiffness_to_mass),
-                        at_rest->initial[states.size()].memory};
-    };
-    const auto left = [&](const double* x, double* residuals) {
-      std::vector<double> predicted;
-      if (!runFree(model, *segment, stateAt(x), predicted)) return false;
-      for (std::size_t k = 0; k < predicted.size(); ++k) residuals[k] = segment->sprung[k] - predicted[k];
-      return true;
-    };
-    using Cost = ceres::NumericDiffCostFunction<decltype(left), ceres::FORWARD, ceres::DYNAMIC, 2>;
-    double x[] = {0.0, 0.0};
-    ceres::Problem problem;
-    problem.AddResidualBlock(new Cost(&left, ceres::DO_NOT_TAKE_OWNERSHIP, static_cast<int>(segment->size())), nullptr,
-                             x);
-    ceres::Solver::Options solver;
-    solver.linear_solver_type = ceres::DENSE_QR;
-    solver.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver, &problem, &summary);
-    if (!summary.IsSolutionUsable()) return std::nullopt;
-    states.push_back(stateAt(x));
-  }
-  return states;
+using Segments = std::vector<const DriveSegment*>;
+
+/// @return the mask of a segment; none if all samples are fitted.
+const SampleMask* maskOf(const std::vector<SampleMask>& masks, std::size_t segment) {
+  return masks.empty() ? nullptr : &masks[segment];
 }
 
-namespace {
+/// What a run from rest, the effects not acting yet, shows of the drives: rms values.
+struct DriveSizes {
+  MotionScale motion;
+  std::vector<double> forces;  ///< of the effects, per unit of their coefficient
+  ReadingSizes reading;  ///< of what is fitted only, the residual robust; of the body 0 where a channel is not known
+};
+
+/// Sums squares over one segment.
+void addSegment(const StrutModel& start, const DriveSegment& segment, const std::vector<StrutState>& motion,
+                DriveSizes& sums) {
+  for (std::size_t k = 0; k < segment.size(); ++k) {
+    const StrutState& state = motion[k];
+    sums.motion.travel += square(state.travel);
+    sums.motion.travel_rate += square(state.travel_rate);
+    for (std::size_t j = 0; j < start.effects.size(); ++j) {
+      const auto& [effect, coefficient, shapes] = start.effects[j];
+      const StrutMotion here{state.travel, state.travel_rate, segment.timeDriven(k), state.memory[j]};
+      sums.forces[j] += square(effect.force(here, shapes.data()));
+    }
+  }
+  for (std::size_t c = 0; c < kNumBodyChannels; ++c)
+    for (const double value : segment.body[c]) sums.reading.body[c] += square(value);
+}
+
+/// @return nothing if the model runs away or there is nothing to fit.
+std::optional<DriveSizes> measureSizes(const Segments& segments, const std::vector<SampleMask>& masks,
+                                       const StrutModel& start) {
+  StrutModel linear = start;  // the effects' memories run along
+  for (ActiveEffect& active : linear.effects) active.coefficient = 0.0;
+  DriveSizes sizes;
+  sizes.forces.resize(start.effects.size(), 0.0);
+  double count = 0.0;
+  std::vector<double> fitted, predicted;
+  std::vector<StrutState> motion;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const DriveSegment& segment = *segments[s];
+    if (!runFree(linear, segment, {}, predicted, &motion)) return std::nullopt;
+    addSegment(start, segment, motion, sizes);
+    count += static_cast<double>(segment.size());
+    const SampleMask* mask = maskOf(masks, s);
+    for (std::size_t k = 0; k < segment.size(); ++k) {
+      if (mask != nullptr && (*mask)[k] == 0) continue;
+      sizes.reading.y += square(segment.sprung[k]);
+      fitted.push_back(segment.sprung[k] - predicted[k]);
+    }
+  }
+  if (fitted.empty()) return std::nullopt;
+  sizes.motion = {std::sqrt(sizes.motion.travel / count), std::sqrt(sizes.motion.travel_rate / count),
+                  1.0 / std::sqrt(start.stiffness_to_mass)};
+  for (double& sum : sizes.forces) sum = std::sqrt(sum / count);
+  for (double& sum : sizes.reading.body) sum = std::sqrt(sum / count);
+  sizes.reading.y = std::sqrt(sizes.reading.y / static_cast<double>(fitted.size()));
+  sizes.reading.residual = robustDeviation(std::move(fitted));
+  sizes.reading.period = segments.front()->period;
+  return sizes;
+}
+
+constexpr double kMargin = 0.02;  // in the logarithm, between a start and the end of a range that is widened for it
+
+double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
+
+/// A model as a vector of numbers of order 1, in the order of valuesOf(): b1 and b0 relative to their start,
+/// coefficients relative to a force of the size of the linear one, shapes by their place in their range (logistic in
+/// the logarithm): beyond its range many a law turns into another one that the model has already, and a fit would lose
+/// its way there.
+class Parameterization {
+ public:
+  /// @param coefficient_scales  of the effects, then of the reading's [unit of the coefficient].
+  /// @param motion  what the shapes' ranges are counted in; ranges are widened to hold the start.
+  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales, const MotionScale& motion) {
+    numbers_ = {{start.damping_to_mass}, {start.stiffness_to_mass}};
+    std::vector<double> x{1.0, 1.0};
+    auto scale = coefficient_scales.begin();
+    for (const auto& [effect, coefficient, shapes] : start.effects) {
+      numbers_.push_back({*scale});
+      x.push_back(coefficient / *scale++);
+      for (std::size_t s = 0; s < shapes.size(); ++s) {
+        const ShapeParameter& shape = effect.shapes[s];
+        const double at = std::log(shapes[s]), unit = std::log(motion.unit(shape.scale));
+        const double lower = std::min(std::log(shape.min) + unit, at - kMargin);
+        const double width = std::max(std::log(shape.max) + unit, at + kMargin) - lower;
+        const double place = (at - lower) / width;
+        numbers_.push_back({0.0, lower, width});
+        x.push_back(std::log(place / (1.0 - place)));
+      }
+    }
+    for (const ActiveMeasurementEffect& reading : start.reading)
+      for (const double coefficient : reading.coefficients) {
+        numbers_.push_back({*scale});
+        x.push_back(coefficient / *scale++);
+      }
+    initial_ = Eigen::Map<const Eigen::VectorXd>(x.data(), size());
+  }
+
+  int size() const { return static_cast<int>(numbers_.size()); }
+
+  /// @return the start as a vector.
+  const Eigen::VectorXd& initial() const { return initial_; }
+
+  /// @param model  its numbers are replaced; it has the effects of the start.
+  void apply(const double* x, StrutModel& model) const {
+    auto number = numbers_.begin();
+    for (double* value : valuesOf(model)) *value = number++->value(*x++);
+  }
+
+  /// @return d(SI value)/dx at x.
+  Eigen::VectorXd slopes(const double* x) const {
+    Eigen::VectorXd slope(size());
+    for (int i = 0; i < size(); ++i) slope[i] = numbers_[static_cast<std::size_t>(i)].slope(x[i]);
+    return slope;
+  }
+
+ private:
+  /// value = scale x; of a shape ln value = lower + width / (1 + exp(-x)), width > 0.
+  struct Number {
+    double scale = 0.0, lower = 0.0, width = 0.0;
+
+    bool isShape() const { return width > 0.0; }
+    double value(double x) const { return isShape() ? std::exp(lower + width * logistic(x)) : scale * x; }
+    double slope(double x) const { return isShape() ? value(x) * width * logistic(x) * (1.0 - logistic(x)) : scale; }
+  };
+
+  std::vector<Number> numbers_;
+  Eigen::VectorXd initial_;
+};
+
+bool hasLasting(const StrutModel& model) {
+  return std::any_of(model.effects.begin(), model.effects.end(),
+                     [](const ActiveEffect& active) { return active.effect.lasts; });
+}
+
+/// Gives every segment the memories that last (ForceEffect::lasts) from the run over those before it, less what the
+/// time between them takes. Nothing happens where none lasts.
+/// @param states  that the segments begin with; the memories are replaced.
+void carryMemories(const StrutModel& model, const Segments& segments, std::vector<StrutState>& states) {
+  if (!hasLasting(model)) return;
+  std::vector<double> predicted;
+  std::vector<StrutState> motion;
+  for (std::size_t s = 0; s + 1 < segments.size(); ++s) {
+    if (!runFree(model, *segments[s], states[s], predicted, &motion)) return;
+    states[s + 1].memory = motion.back().memory;
+    keepLasting(model, restBetween(*segments[s], *segments[s + 1]), states[s + 1].memory);
+  }
+}
+
+/// The same for a fit, whose costs ask segment by segment for the same models again and again.
+class CarriedMemories {
+ public:
+  /// @param states  travel and travel rate that the segments begin with, about.
+  CarriedMemories(const Segments& segments, std::vector<StrutState> states)
+      : segments_(segments), states_(std::move(states)) {}
+
+  /// @return of one segment, by kMostEffects.
+  const std::array<Memory, kMostEffects>& at(std::size_t segment, StrutModel& model) {
+    if (segment == 0 || !hasLasting(model)) return states_[segment].memory;
+    std::vector<double> numbers;
+    for (const double* number : valuesOf(model)) numbers.push_back(*number);
+    if (known_.size() > 2 * numbers.size()) known_.clear();  // a point and its derivatives, and the point before
+    const auto [known, is_new] = known_.try_emplace(std::move(numbers), states_);
+    if (is_new) carryMemories(model, segments_, known->second);
+    return known->second[segment].memory;
+  }
+
+ private:
+  const Segments& segments_;
+  std::vector<StrutState> states_;
+  std::map<std::vector<double>, std::vector<StrutState>> known_;  // by the numbers of the model
+};
 
 using LocalStates = std::vector<std::array<double, 2>>;  // travel and travel rate that segments begin with, scaled
 
-constexpr double kSmallForce = 0.1;  // of the measured acceleration: what a coefficient of 1 makes of its effect
+constexpr double kParameterStep = 1e-6;  // relative step of the numerical derivatives
+constexpr double kSmallForce = 0.1;      // of the measured acceleration: what a coefficient of 1 makes of its effect
 
 /// @return nothing if an effect never acts in these drives, or a fault of the measurement cannot show in them.
-std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes, double period) {
+std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes) {
   std::vector<double> scales;
   for (const double force : sizes.forces) {
     if (force == 0.0) return std::nullopt;
-    scales.push_back(kSmallForce * sizes.acceleration / force);
+    scales.push_back(kSmallForce * sizes.reading.y / force);
   }
-  const ReadingSizes reading_sizes{sizes.residual, sizes.acceleration, period, sizes.body};
   for (const ActiveMeasurementEffect& reading : start.reading) {
     bool shows = false;
     for (std::size_t i = 0; i < reading.coefficients.size(); ++i) {
-      const double scale = reading.effect.scale(reading_sizes, i);
+      const double scale = reading.effect.scale(sizes.reading, i);
       shows = shows || std::isfinite(scale);
       scales.push_back(std::isfinite(scale) ? scale : 1.0);  // nothing moves the coefficient of a channel that is empty
     }
@@ -70,6 +215,97 @@ std::optional<std::vector<double>> coefficientScales(const StrutModel& start, co
   }
   return scales;
 }
+
+/// Residuals of one segment. Parameter blocks: the model, the segment's initial travel and travel rate.
+/// The arguments must outlive it.
+class SegmentCost : public ceres::CostFunction {
+ public:
+  /// @param index  of the segment.  @param mask  none: all samples.
+  /// @param scale  what the initial state is counted in.
+  /// @param outlier  where a residual begins to count as one [m/s^2].
+  SegmentCost(const Segments& segments, std::size_t index, const SampleMask* mask, const Parameterization& parameters,
+              const StrutModel& model, const MotionScale& scale, double outlier, CarriedMemories& memories)
+      : segment_(*segments[index]),
+        index_(index),
+        parameters_(parameters),
+        model_(model),
+        scale_(scale),
+        outlier_(outlier),
+        memories_(memories) {
+    for (std::size_t k = 0; k < segment_.size(); ++k)
+      if (mask == nullptr || (*mask)[k] != 0) used_.push_back(k);
+    set_num_residuals(static_cast<int>(used_.size()));
+    mutable_parameter_block_sizes()->push_back(parameters.size());
+    mutable_parameter_block_sizes()->push_back(2);
+  }
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    Eigen::VectorXd shared = Eigen::Map<const Eigen::VectorXd>(x[0], parameters_.size());
+    Eigen::VectorXd local = Eigen::Map<const Eigen::VectorXd>(x[1], 2);
+    Eigen::VectorXd base(num_residuals());
+    if (!evaluate(shared, local, base)) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = base.unaryExpr([this](double r) { return damp(r); });
+    if (jacobians == nullptr) return true;
+    return (jacobians[0] == nullptr || differentiate(shared, local, shared, base, jacobians[0])) &&
+           (jacobians[1] == nullptr || differentiate(shared, local, local, base, jacobians[1]));
+  }
+
+ private:
+  bool evaluate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& residuals) const {
+    StrutModel model = model_;
+    parameters_.apply(shared.data(), model);
+    StrutState state{0.0, 0.0, memories_.at(index_, model)};
+    state.travel = local[0] * scale_.travel;
+    state.travel_rate = local[1] * scale_.travel_rate;
+    std::vector<double> predicted;
+    if (!runFree(model, segment_, state, predicted)) return false;
+    for (std::size_t i = 0; i < used_.size(); ++i)
+      residuals[static_cast<Eigen::Index>(i)] = segment_.sprung[used_[i]] - predicted[used_[i]];
+    return true;
+  }
+
+  /// Derivative of the damped residuals with respect to `varied`, one of the two others. Row by row.
+  bool differentiate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& varied,
+                     const Eigen::VectorXd& base, double* jacobian) const {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor> columns(jacobian, num_residuals(), varied.size());
+    Eigen::VectorXd moved(num_residuals());
+    for (Eigen::Index i = 0; i < varied.size(); ++i) {
+      const double kept = varied[i];
+      double step = kParameterStep * std::max(1.0, std::abs(kept));
+      varied[i] = kept + step;
+      if (!evaluate(shared, local, moved)) {  // at the edge of stability: look the other way
+        step = -step;
+        varied[i] = kept + step;
+        if (!evaluate(shared, local, moved)) moved = base;  // on a ridge: it stays where it is
+      }
+      varied[i] = kept;
+      for (int k = 0; k < num_residuals(); ++k) columns(k, i) = (moved[k] - base[k]) / step * dampSlope(base[k]);
+    }
+    return true;
+  }
+
+  // Smooth Huber loss as a change of the residual: half its square is a^2 (sqrt(1 + (r/a)^2) - 1).
+  double damp(double r) const {
+    const double q = r / outlier_;
+    return std::copysign(outlier_ * std::sqrt(2.0 * q * q / (std::sqrt(1.0 + q * q) + 1.0)), r);
+  }
+
+  double dampSlope(double r) const {
+    const double q = r / outlier_;
+    const double damped = damp(r);
+    return damped == 0.0 ? 1.0 : r / (std::sqrt(1.0 + q * q) * damped);
+  }
+
+  const DriveSegment& segment_;
+  std::size_t index_;
+  const Parameterization& parameters_;
+  const StrutModel& model_;
+  MotionScale scale_;
+  double outlier_;
+  CarriedMemories& memories_;
+  std::vector<std::size_t> used_;
+};
 
 /// Standard deviations of the model's numbers (in SI), the initial states of the segments being unknown, too.
 std::vector<double> standardDeviations(const ceres::Problem& problem, const Parameterization& parameters,
@@ -100,29 +336,22 @@ std::vector<double> standardDeviations(const ceres::Problem& problem, const Para
 }
 
 /// Fits the model `x` and the initial states in place.
-/// @return the model's standard deviations; nothing if the solver fails.
-std::optional<std::vector<double>> solve(const Segments& segments, const std::vector<SampleMask>& masks,
-                                         const StrutModel& start, const Parameterization& parameters,
-                                         const CostScales& scales, CarriedMemories& memories, Eigen::VectorXd& x,
-                                         LocalStates& initial) {
-  ceres::Problem problem;
+/// @param holds_model  it stays as it is.
+/// @return false if the solver fails.
+bool solve(ceres::Problem& problem, bool holds_model, Eigen::VectorXd& x, LocalStates& initial) {
   auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
   ceres::Solver::Options solver;
   solver.linear_solver_ordering.reset(ordering);
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    problem.AddResidualBlock(new SegmentCost(segments, s, maskOf(masks, s), parameters, start, scales, memories),
-                             nullptr, x.data(), initial[s].data());
-    ordering->AddElementToGroup(initial[s].data(), 0);
-  }
+  for (auto& of_segment : initial) ordering->AddElementToGroup(of_segment.data(), 0);
   ordering->AddElementToGroup(x.data(), 1);
+  if (holds_model) problem.SetParameterBlockConstant(x.data());
   solver.linear_solver_type = ceres::DENSE_SCHUR;
   solver.max_num_iterations = 25;
   solver.function_tolerance = 1e-7;
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return std::nullopt;
-  return standardDeviations(problem, parameters, x.data());
+  return summary.IsSolutionUsable();
 }
 
 /// A first guess of coefficients by linear thinking may make the model run away: they are halved until it does not.
@@ -185,34 +414,62 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   if (!tame(segments, guessed_states, start)) return FitFailure::kRunsAway;
   const std::optional<DriveSizes> sizes = measureSizes(segments, masks, start);
   if (!sizes) return FitFailure::kRunsAway;
-  const auto coefficient_scales = coefficientScales(start, *sizes, records.front()->period());
+  const auto coefficient_scales = coefficientScales(start, *sizes);
   if (!coefficient_scales) return FitFailure::kNeverActs;
-  const MotionScale motion{sizes->travel, sizes->travel_rate, 1.0 / std::sqrt(start.stiffness_to_mass)};
-  const Parameterization parameters(start, *coefficient_scales, motion);
-  const CostScales scales{sizes->travel, sizes->travel_rate,
-                          std::max(kOutlierScale * sizes->residual, 1e-9 * sizes->acceleration)};
+  const MotionScale& scale = sizes->motion;
+  const Parameterization parameters(start, *coefficient_scales, scale);
+  const double outlier = std::max(kOutlierScale * sizes->reading.residual, 1e-9 * sizes->reading.y);
   Eigen::VectorXd x = parameters.initial();
   std::vector<StrutState> states(segments.size());
   LocalStates initial(segments.size(), {0.0, 0.0});
   for (std::size_t s = 0; s < guessed_states.size(); ++s) {
     states[s] = {guessed_states[s].travel, guessed_states[s].travel_rate, {}};
-    initial[s] = {states[s].travel / scales.travel, states[s].travel_rate / scales.travel_rate};
+    initial[s] = {states[s].travel / scale.travel, states[s].travel_rate / scale.travel_rate};
   }
   CarriedMemories memories(segments, states);
-  auto stddev = solve(segments, masks, start, parameters, scales, memories, x, initial);
-  if (!stddev) return FitFailure::kNotSolved;
+  ceres::Problem problem;
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    problem.AddResidualBlock(
+        new SegmentCost(segments, s, maskOf(masks, s), parameters, start, scale, outlier, memories), nullptr, x.data(),
+        initial[s].data());
+  if (!solve(problem, false, x, initial)) return FitFailure::kNotSolved;
 
   ModelFit fit;
   fit.model = start;
-  fit.stddev = std::move(*stddev);
-  fit.motion = motion;
+  fit.stddev = standardDeviations(problem, parameters, x.data());
+  fit.motion = scale;
   parameters.apply(x.data(), fit.model);
   if (!(fit.model.stiffness_to_mass > 0.0)) return FitFailure::kNoSpring;
   if (!canFollow(fit.model, records.front()->period())) return FitFailure::kTooFast;
   for (std::size_t s = 0; s < segments.size(); ++s)
-    states[s] = {initial[s][0] * scales.travel, initial[s][1] * scales.travel_rate, {}};
+    states[s] = {initial[s][0] * scale.travel, initial[s][1] * scale.travel_rate, {}};
   if (!addResiduals(segments, states, fit)) return FitFailure::kRunsAway;
   return fit;
+}
+
+std::optional<std::vector<StrutState>> estimateInitialStates(const Records& records, const StrutModel& model) {
+  const FitOutcome at_rest = withoutFit(records, model);
+  if (!at_rest) return std::nullopt;
+  const Segments segments = segmentsOf(records);
+  const double size = std::sqrt(meanSquare(at_rest->residuals)), rate = std::sqrt(model.stiffness_to_mass);
+  if (size == 0.0) return at_rest->initial;
+  const MotionScale scale{size / model.stiffness_to_mass, size / rate, 1.0 / rate};
+  const Parameterization parameters(model, std::vector<double>(numbersOf(model).size(), 1.0), scale);
+  CarriedMemories memories(segments, at_rest->initial);
+  Eigen::VectorXd x = parameters.initial();
+  LocalStates initial(segments.size(), {0.0, 0.0});
+  ceres::Problem problem;
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    problem.AddResidualBlock(
+        new SegmentCost(segments, s, nullptr, parameters, model, scale, kOutlierScale * size, memories), nullptr,
+        x.data(), initial[s].data());
+  if (!solve(problem, true, x, initial)) return std::nullopt;
+  std::vector<StrutState> states = at_rest->initial;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    states[s].travel = initial[s][0] * scale.travel;
+    states[s].travel_rate = initial[s][1] * scale.travel_rate;
+  }
+  return states;
 }
 
 double meanOf(const Residuals& residuals) {

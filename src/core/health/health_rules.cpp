@@ -10,21 +10,19 @@
 namespace suspension_health_monitor {
 namespace {
 
+using LoadRange = std::pair<double, double>;
+
 LoadRange logRange(double range) { return {range < 1.0 ? std::log1p(-range) : -std::log1p(range), std::log1p(range)}; }
 
-struct Load {
-  double log_mass, stddev;
-};
-
 // What both have in common, as far as that is significant against the known load.
-Load commonLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range, double known) {
+LogChange commonLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range, double known) {
   const auto [less, more] = std::minmax({-damping.size, -stiffness.size});
   const double common = std::clamp(known, less, more);
   const double stddev = common == -damping.size ? damping.stddev : stiffness.stddev;
   const double noise = stddev > 0.0 ? 2.0 * stddev : 0.0;
   if (std::abs(common - known) <= noise) return {known, 0.0};
   const double shrunk = known + (common - known) * (1.0 - std::pow(noise / (common - known), 2));
-  return {std::clamp(shrunk, range.least, range.most), stddev};
+  return {std::clamp(shrunk, range.first, range.second), stddev};
 }
 
 }  // namespace
@@ -42,7 +40,7 @@ LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
   const Eigen::Vector2d measured(both.damping->size, both.stiffness->size), load_moves(-1.0, -1.0);
   const Eigen::Vector2d weights = information * load_moves;
   LoadAlone load;
-  load.log_mass = std::clamp(weights.dot(measured) / weights.dot(load_moves), range.least, range.most);
+  load.log_mass = std::clamp(weights.dot(measured) / weights.dot(load_moves), range.first, range.second);
   const Eigen::Vector2d left = measured - load.log_mass * load_moves;
   load.distance = std::sqrt(std::max(left.dot(information * left), 0.0));  // of NaN, which is not known, NaN
   return load;
@@ -52,17 +50,17 @@ StrutChange splitChange(const MeasuredChange& measured, double payload_range, do
   const auto& [damping, stiffness, correlation] = measured;
   StrutChange change{};
   change.measured = measured;
-  Load load{0.0, 0.0};
+  LogChange load{0.0, 0.0};  // of the mass
   if (damping && stiffness) {
     if (payload_range > 0.0) {
       const LoadRange range = logRange(payload_range);
       load = commonLoad(*damping, *stiffness, range, known_load);
       change.load_alone = explainByLoad(measured, range);
     }
-    change.payload = std::expm1(load.log_mass);
+    change.payload = std::expm1(load.size);
   }
-  if (damping) change.damping = std::expm1(damping->size + load.log_mass);
-  if (stiffness) change.stiffness = std::expm1(stiffness->size + load.log_mass);
+  if (damping) change.damping = std::expm1(damping->size + load.size);
+  if (stiffness) change.stiffness = std::expm1(stiffness->size + load.size);
   change.damping_stddev = damping ? std::hypot(damping->stddev, load.stddev) : NAN;
   change.stiffness_stddev = stiffness ? std::hypot(stiffness->stddev, load.stddev) : NAN;
   return change;

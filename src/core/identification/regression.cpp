@@ -6,10 +6,11 @@
 namespace suspension_health_monitor {
 
 SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects,
-                                           SensorColumns sensors)
+                                           SensorColumns sensors, int effect_derivative)
     : sprung_(2, options, 2),
       relative_(2, options),
-      effects_(num_effects, LinearIntegralFilter(2, options, 2)),
+      effects_(num_effects, LinearIntegralFilter(2, options, effect_derivative)),
+      effect_derivative_(effect_derivative),
       sensors_(sensors),
       offset_gain_(std::pow(options.horizon_samples * options.period, 2)),
       drift_rows_(LinearIntegralFilter::window(2, options) / 2),
@@ -24,7 +25,7 @@ const RegressionRow* SuspensionRegression::push(const CornerSample& sample, cons
   row_.output = sprung_.output(2);
   row_.regressor[kDampingToMass] = relative_.output(1);
   row_.regressor[kStiffnessToMass] = relative_.output(0);
-  for (const LinearIntegralFilter& effect : effects_) *column++ = effect.output(2);
+  for (const LinearIntegralFilter& effect : effects_) *column++ = effect.output(effect_derivative_);
   if (sensors_ != SensorColumns::kNone) fillSensors(column);
   return &row_;
 }
@@ -40,30 +41,6 @@ void SuspensionRegression::reset() {
   sprung_.reset();
   relative_.reset();
   for (LinearIntegralFilter& effect : effects_) effect.reset();
-}
-
-TyreRegression::TyreRegression(const IntegralFilterOptions& options)
-    : wheel_(2, options, 2),
-      strut_(2, options),
-      tyre_(2, options),
-      row_{Eigen::VectorXd::Zero(kNumTyreParameters), 0.0} {}
-
-const RegressionRow* TyreRegression::push(const CornerSample& sample, double road_acceleration) {
-  wheel_.push(sample.unsprung_acceleration);
-  strut_.push(sample.unsprung_acceleration - sample.sprung_acceleration);
-  tyre_.push(road_acceleration - sample.unsprung_acceleration);
-  if (!wheel_.full()) return nullptr;
-  row_.output = wheel_.output(2);
-  row_.regressor[kDampingToWheelMass] = -strut_.output(1);
-  row_.regressor[kStiffnessToWheelMass] = -strut_.output(0);
-  row_.regressor[kTyreToWheelMass] = tyre_.output(0);
-  return &row_;
-}
-
-void TyreRegression::reset() {
-  wheel_.reset();
-  strut_.reset();
-  tyre_.reset();
 }
 
 }  // namespace suspension_health_monitor

@@ -16,63 +16,56 @@ Memory advanced(Memory memory, double by, const Memory& rate) {
   return memory;
 }
 
-/// Where the strut is at one of the instants of a step. The plain strut leaves out everything about effects: it is on
-/// the sample path of every monitor.
+/// At one of the instants of a step. The plain strut leaves out everything about effects: it is on the sample path of
+/// every monitor.
+/// @param travel, travel_rate  as the wheel alone makes them.
 template <bool kWithEffects>
-struct Stage {
-  const StrutModel& model;
-  std::size_t num_effects;
-
-  /// @param travel, travel_rate  as the wheel alone makes them.
-  Along slope(double time, double travel, double travel_rate, const Along& body) const {
-    travel -= body.position;
-    travel_rate -= body.velocity;
-    Along slope;
-    slope.position = body.velocity;
-    slope.velocity = model.damping_to_mass * travel_rate + model.stiffness_to_mass * travel;
-    if constexpr (kWithEffects) {
-      for (std::size_t j = 0; j < num_effects; ++j) {
-        const ActiveEffect& active = model.effects[j];
-        slope.velocity +=
-            active.coefficient * active.effect.force({travel, travel_rate, time, body.memory[j]}, active.shapes.data());
-      }
-      for (std::size_t j = 0; j < num_effects; ++j) {
-        const auto& [effect, coefficient, shapes] = model.effects[j];
-        const StrutMotion motion{travel, travel_rate, time, body.memory[j], slope.velocity};
-        slope.memory[j] = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : Memory();
-      }
+Along slopeAt(const StrutModel& model, double time, double travel, double travel_rate, const Along& body) {
+  travel -= body.position;
+  travel_rate -= body.velocity;
+  Along slope;
+  slope.position = body.velocity;
+  slope.velocity = model.damping_to_mass * travel_rate + model.stiffness_to_mass * travel;
+  if constexpr (kWithEffects) {
+    for (std::size_t j = 0; j < model.effects.size(); ++j) {
+      const ActiveEffect& active = model.effects[j];
+      slope.velocity +=
+          active.coefficient * active.effect.force({travel, travel_rate, time, body.memory[j]}, active.shapes.data());
     }
-    return slope;
+    for (std::size_t j = 0; j < model.effects.size(); ++j) {
+      const auto& [effect, coefficient, shapes] = model.effects[j];
+      const StrutMotion motion{travel, travel_rate, time, body.memory[j], slope.velocity};
+      slope.memory[j] = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : Memory();
+    }
   }
-
-  Along moved(const StrutState& start, double by, const Along& slope) const {
-    Along body;
-    body.position = by * slope.position;
-    body.velocity = by * slope.velocity;
-    if constexpr (kWithEffects)
-      for (std::size_t j = 0; j < num_effects; ++j) body.memory[j] = advanced(start.memory[j], by, slope.memory[j]);
-    return body;
-  }
-};
+  return slope;
+}
 
 template <bool kWithEffects>
 void integrate(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state) {
-  const Stage<kWithEffects> stage{model, model.effects.size()};
+  const auto moved = [&](double by, const Along& slope) {
+    Along body{by * slope.position, by * slope.velocity, {}};
+    if constexpr (kWithEffects)
+      for (std::size_t j = 0; j < model.effects.size(); ++j)
+        body.memory[j] = advanced(state.memory[j], by, slope.memory[j]);
+    return body;
+  };
   // Travel and its rate as they would go on, plus the wheel's motion; the body's is taken off stage by stage.
   const double half = step / 2;
   const double middle = state.travel + half * state.travel_rate + wheel.middle_position;
   const double middle_rate = state.travel_rate + wheel.middle_velocity;
   const double end = state.travel + step * state.travel_rate + wheel.end_position;
   const double end_rate = state.travel_rate + wheel.end_velocity;
-  const Along k1 = stage.slope(time, state.travel, state.travel_rate, stage.moved(state, 0.0, {0.0, 0.0, {}}));
-  const Along k2 = stage.slope(time + half, middle, middle_rate, stage.moved(state, half, k1));
-  const Along k3 = stage.slope(time + half, middle, middle_rate, stage.moved(state, half, k2));
-  const Along k4 = stage.slope(time + step, end, end_rate, stage.moved(state, step, k3));
+  constexpr auto slope = slopeAt<kWithEffects>;
+  const Along k1 = slope(model, time, state.travel, state.travel_rate, moved(0.0, {0.0, 0.0, {}}));
+  const Along k2 = slope(model, time + half, middle, middle_rate, moved(half, k1));
+  const Along k3 = slope(model, time + half, middle, middle_rate, moved(half, k2));
+  const Along k4 = slope(model, time + step, end, end_rate, moved(step, k3));
   const double sixth = step / 6;
   state.travel = end - sixth * (k1.position + 2 * (k2.position + k3.position) + k4.position);
   state.travel_rate = end_rate - sixth * (k1.velocity + 2 * (k2.velocity + k3.velocity) + k4.velocity);
   if constexpr (kWithEffects)
-    for (std::size_t j = 0; j < stage.num_effects; ++j)
+    for (std::size_t j = 0; j < model.effects.size(); ++j)
       for (const auto n : kNumbers)
         state.memory[j].*n += sixth * (k1.memory[j].*n + 2 * (k2.memory[j].*n + k3.memory[j].*n) + k4.memory[j].*n);
 }

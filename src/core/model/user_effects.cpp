@@ -16,34 +16,6 @@
 
 namespace suspension_health_monitor {
 
-/// A law written as an expression; a ForceEffect::Law. A copy has a parser and variables of its own.
-class LawExpression {
- public:
-  /// @param shapes  names, in the order in which their values come.
-  /// @param has_memory  whether the expression may use s.
-  /// @throws std::invalid_argument  saying what is wrong in the expression, and where.
-  LawExpression(std::string text, std::vector<std::string> shapes, bool has_memory);
-
-  LawExpression(const LawExpression& other) : LawExpression(other.text_, other.shapes_, other.has_memory_) {}
-  LawExpression(LawExpression&&) = default;
-
-  double operator()(const StrutMotion& motion, const double* shapes) const;
-
-  /// @return true if expressions have that name already: a variable, a constant or a function.
-  static bool isReserved(const std::string& name);
-
- private:
-  struct Compiled {
-    mu::Parser parser;
-    std::vector<double> values;  // d, v, t, s, shapes: the parser points to them
-  };
-
-  std::string text_;
-  std::vector<std::string> shapes_;
-  bool has_memory_;
-  std::unique_ptr<Compiled> compiled_;
-};
-
 namespace {
 
 constexpr std::array kVariables{"d", "v", "t", "s"};
@@ -84,41 +56,63 @@ void refuseStatements(const mu::Parser& parser, const std::string& text) {
 
 }  // namespace
 
-LawExpression::LawExpression(std::string text, std::vector<std::string> shapes, bool has_memory)
-    : text_(std::move(text)),
-      shapes_(std::move(shapes)),
-      has_memory_(has_memory),
-      compiled_(std::make_unique<Compiled>()) {
-  mu::Parser& parser = compiled_->parser;
-  std::vector<double>& values = compiled_->values;
-  values.resize(kVariables.size() + shapes_.size(), 1.0);
-  try {
-    for (std::size_t i = 0; i < kVariables.size(); ++i)
-      if (i != kMemory || has_memory_) parser.DefineVar(kVariables[i], &values[i]);
-    for (std::size_t i = 0; i < shapes_.size(); ++i) parser.DefineVar(shapes_[i], &values[kVariables.size() + i]);
-    parser.SetExpr(text_);
-    parser.Eval();  // compiles: from now on evaluating allocates nothing
-  } catch (const mu::ParserError& error) {
-    refuse(parser, text_, error);
+/// A law written as an expression; a ForceEffect::Law. A copy has a parser and variables of its own.
+class LawExpression {
+ public:
+  /// @param shapes  names, in the order in which their values come.
+  /// @param has_memory  whether the expression may use s.
+  /// @throws std::invalid_argument  saying what is wrong in the expression, and where.
+  LawExpression(std::string text, std::vector<std::string> shapes, bool has_memory)
+      : text_(std::move(text)),
+        shapes_(std::move(shapes)),
+        has_memory_(has_memory),
+        compiled_(std::make_unique<Compiled>()) {
+    mu::Parser& parser = compiled_->parser;
+    std::vector<double>& values = compiled_->values;
+    values.resize(kVariables.size() + shapes_.size(), 1.0);
+    try {
+      for (std::size_t i = 0; i < kVariables.size(); ++i)
+        if (i != kMemory || has_memory_) parser.DefineVar(kVariables[i], &values[i]);
+      for (std::size_t i = 0; i < shapes_.size(); ++i) parser.DefineVar(shapes_[i], &values[kVariables.size() + i]);
+      parser.SetExpr(text_);
+      parser.Eval();  // compiles: from now on evaluating allocates nothing
+    } catch (const mu::ParserError& error) {
+      refuse(parser, text_, error);
+    }
+    refuseStatements(parser, text_);
   }
-  refuseStatements(parser, text_);
-}
 
-double LawExpression::operator()(const StrutMotion& motion, const double* shapes) const {
-  std::vector<double>& values = compiled_->values;
-  values[0] = motion.travel;
-  values[1] = motion.travel_rate;
-  values[2] = motion.time;
-  values[kMemory] = motion.memory.s;
-  std::copy_n(shapes, shapes_.size(), values.begin() + kVariables.size());
-  return compiled_->parser.Eval();
-}
+  LawExpression(const LawExpression& other) : LawExpression(other.text_, other.shapes_, other.has_memory_) {}
+  LawExpression(LawExpression&&) = default;
 
-bool LawExpression::isReserved(const std::string& name) {
-  const mu::Parser parser;
-  return std::find(kVariables.begin(), kVariables.end(), name) != kVariables.end() ||
-         parser.GetFunDef().count(name) != 0 || parser.GetConst().count(name) != 0;
-}
+  double operator()(const StrutMotion& motion, const double* shapes) const {
+    std::vector<double>& values = compiled_->values;
+    values[0] = motion.travel;
+    values[1] = motion.travel_rate;
+    values[2] = motion.time;
+    values[kMemory] = motion.memory.s;
+    std::copy_n(shapes, shapes_.size(), values.begin() + kVariables.size());
+    return compiled_->parser.Eval();
+  }
+
+  /// @return true if expressions have that name already: a variable, a constant or a function.
+  static bool isReserved(const std::string& name) {
+    const mu::Parser parser;
+    return std::find(kVariables.begin(), kVariables.end(), name) != kVariables.end() ||
+           parser.GetFunDef().count(name) != 0 || parser.GetConst().count(name) != 0;
+  }
+
+ private:
+  struct Compiled {
+    mu::Parser parser;
+    std::vector<double> values;  // d, v, t, s, shapes: the parser points to them
+  };
+
+  std::string text_;
+  std::vector<std::string> shapes_;
+  bool has_memory_;
+  std::unique_ptr<Compiled> compiled_;
+};
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -16,10 +17,7 @@ bool agree(double a, double a_stddev, double b, double b_stddev) {
 
 bool isKnown(double relative_stddev) { return relative_stddev <= kMostRelativeStddev; }
 
-struct Rule {
-  EstimateDoubt doubt;
-  bool (*applies)(const EstimateFacts&);
-};
+using Rule = std::pair<EstimateDoubt, bool (*)(const EstimateFacts&)>;
 
 constexpr std::array kRules{
     // Every parameter has the time in its unit: a wrong period makes all wrong.
@@ -59,8 +57,8 @@ bool agree(const StrutEstimate& a, const StrutEstimate& b) {
 }
 
 EstimateDoubt doubtOf(const EstimateFacts& facts) {
-  const auto rule = std::find_if(kRules.begin(), kRules.end(), [&](const Rule& r) { return r.applies(facts); });
-  return rule == kRules.end() ? EstimateDoubt::kNone : rule->doubt;
+  const auto rule = std::find_if(kRules.begin(), kRules.end(), [&](const Rule& r) { return r.second(facts); });
+  return rule == kRules.end() ? EstimateDoubt::kNone : rule->first;
 }
 
 }  // namespace suspension_health_monitor

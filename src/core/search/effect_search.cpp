@@ -1,12 +1,13 @@
 #include "suspension_health_monitor/internal/search/effect_search.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "explanation.h"
 #include "model_evaluator.h"
-#include "rivals.h"
+#include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
@@ -14,6 +15,142 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
+
+constexpr const char* kTilt = "mount_tilt";
+
+/// A sensor that is tilted by an angle reads its cosine of all that happens along the strut, gravity above all. What
+/// leaks in from across need not show it: of the wheel's IMU nothing else is known.
+/// @return true if a fault of the model's reading is an offset or a gain that a tilt of up to 30 degrees makes as well,
+/// in drives whose sensors read gravity.
+bool mayBeTilt(const StrutModel& model, const std::string& fault, const Records& records) {
+  const bool is_read = std::all_of(records.begin(), records.end(), [](const DriveRecord* record) {
+    return record->gravity() > 0.5 * kStandardGravity;
+  });
+  const double lost_by_30_degrees = 1.0 - std::cos(M_PI / 6.0);
+  const double unit = fault == "accelerometer_bias" ? kStandardGravity : fault == "scale_error" ? 1.0 : 0.0;
+  return is_read && std::any_of(model.reading.begin(), model.reading.end(), [&](const ActiveMeasurementEffect& active) {
+           return active.effect.name == fault && std::abs(active.coefficients.front()) < lost_by_30_degrees * unit;
+         });
+}
+
+/// How much of the body's turning goes with the strut's motion: the share of the mean square of its angular
+/// acceleration, about x or y, that travel, travel rate and z'' of a model's free run tell, fitted on the training
+/// samples and judged by the rest. A strut that turns its body is not alone on it: something else holds the body, and
+/// what that does to the strut's top has the gyro's shape, too, without being a fault of a sensor.
+/// @return 0 if the strut's motion explains none of it, or if the body's IMU measures no turning.
+double shareOfTurning(const Records& records, const HoldOut& held_out, const LinearResponse& motion) {
+  const Eigen::Index count = motion.numSamples();
+  Eigen::MatrixXd strut(count, 3);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const StrutMotion& m = motion.motion()[static_cast<std::size_t>(k)];
+    strut.row(k) << m.travel / motion.travel(), m.travel_rate / motion.travelRate(), m.body_acceleration;
+  }
+  const Eigen::VectorXd trained = joined(held_out.training);
+  const Eigen::VectorXd judged = Eigen::VectorXd::Ones(count) - trained;
+  const Eigen::MatrixXd weighted = trained.asDiagonal() * strut;
+  double most = 0.0;
+  for (const BodyChannel channel : {BodyChannel::kAngularAccelerationX, BodyChannel::kAngularAccelerationY}) {
+    std::vector<std::vector<double>> measured;
+    for (const DriveSegment* segment : segmentsOf(records))
+      measured.push_back(segment->body[static_cast<std::size_t>(channel)]);
+    const Eigen::VectorXd turning = joined(measured);
+    if (turning.size() < count) continue;  // not measured in one of the drives
+    const Eigen::Vector3d told = (strut.transpose() * weighted).ldlt().solve(weighted.transpose() * turning);
+    const double whole = judged.dot(turning.cwiseAbs2());
+    if (whole > 0.0) most = std::max(most, 1.0 - judged.dot((turning - strut * told).cwiseAbs2()) / whole);
+  }
+  return most;
+}
+
+constexpr double kStraight = 0.005;  // of a reading: the nonlinearity of accelerometers
+
+/// How the motion of a kind of drive compares with that of the present one.
+struct MotionChange {
+  DriveKind kind;
+  double travel, travel_rate, time;
+};
+
+constexpr MotionChange kChanges[] = {
+    {DriveKind::kMoreTravel, 2.0, 2.0, 1.0},   {DriveKind::kLessTravel, 1.0 / 3.0, 1.0 / 3.0, 1.0},
+    {DriveKind::kSlower, 1.0, 1.0 / 3.0, 1.0}, {DriveKind::kQuicker, 1.0, 3.0, 1.0},
+    {DriveKind::kLonger, 1.0, 1.0, 3.0},
+};
+constexpr double kHelps = 2.0;  // times as different as in the drives at hand
+
+std::vector<StrutMotion> scaled(const std::vector<StrutMotion>& motion, const MotionChange& change) {
+  std::vector<StrutMotion> result = motion;
+  for (StrutMotion& m : result) {
+    m.travel *= change.travel;
+    m.travel_rate *= change.travel_rate;
+    m.time *= change.time;
+  }
+  return result;
+}
+
+Eigen::VectorXd totalForce(const StrutModel& model, const std::vector<StrutMotion>& motion,
+                           const LinearResponse& present) {
+  const Eigen::MatrixXd forces = forcesAlong(model, motion, present.ends(), present.rests());
+  Eigen::VectorXd total = model.damping_to_mass * forces.col(0) + model.stiffness_to_mass * forces.col(1);
+  for (std::size_t j = 0; j < model.effects.size(); ++j)
+    total += model.effects[j].coefficient * forces.col(2 + static_cast<Eigen::Index>(j));
+  return total;
+}
+
+/// rms difference of the least different model from the first, as a share of the first one's force.
+double difference(const LinearResponse& present, const std::vector<StrutModel>& models, const MotionChange& change) {
+  const std::vector<StrutMotion> motion = scaled(present.motion(), change);
+  const Eigen::VectorXd first = totalForce(models.front(), motion, present);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < models.size(); ++i)
+    least = std::min(least, (totalForce(models[i], motion, present) - first).norm() / first.norm());
+  return least;
+}
+
+/// The best of a ranking, or the simplest that is as good, and all that cannot be told from the best.
+struct Selection {
+  EvaluatedModel chosen;
+  std::vector<std::string> group;
+  std::vector<StrutModel> models;  ///< of the group
+};
+
+/// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not.
+/// A rival whose z'' is hardly another one cannot be told from the best, however sure a long drive would be: no sensor
+/// is as straight, and what a filter before the sampling makes of a law may be what another law says (dry friction
+/// turns round as a digressive damper does).
+/// @pre the first of the ranking is fitted.
+Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held_out) {
+  const EvaluatedModel& best = ranking.front();
+  Selection selection{best, {}, {}};
+  for (const EvaluatedModel& rival : ranking) {
+    if (!rival.ranked.fitted) continue;
+    const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
+    const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
+    const PairedTest gain = rival.gainOf(best);
+    const bool is_resolved = rival.loss - best.loss > square(kStraight) * held_out.measuredSquares();
+    const bool is_worse = gain.removed_share > kWorthHaving || isSignificant(gain, chance);
+    if (is_worse && is_resolved) continue;
+    selection.group.push_back(rival.added);
+    selection.models.push_back(rival.ranked.model);
+    if (!is_worse && complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model))
+      selection.chosen = rival;
+  }
+  return selection;
+}
+
+/// The kind of drive on which models differ that the present drives cannot tell apart: of several kinds (rougher,
+/// smoother, slower, quicker, longer) the one in which the least different of them differs most from the first, their
+/// forces taken along the present motion scaled to that kind. kNoneHelps if none makes it at least twice as much.
+SeparatingDrive separatingDrive(const LinearResponse& present, const Selection& selection) {
+  const double here = difference(present, selection.models, {DriveKind::kNoneHelps, 1.0, 1.0, 1.0});
+  SeparatingDrive best{selection.group, DriveKind::kNoneHelps, kHelps * here, here};
+  for (const MotionChange& change : kChanges) {
+    const double there = difference(present, selection.models, change);
+    if (!(there > best.difference_there)) continue;
+    best.kind = change.kind;
+    best.difference_there = there;
+  }
+  return best;
+}
 
 using Names = std::vector<std::string>;
 
@@ -44,6 +181,20 @@ std::vector<RankedModel> asReported(const std::vector<EvaluatedModel>& ranking) 
   return models;
 }
 
+/// The share of what a model leaves above the floor that another one takes.
+double shareOf(const EvaluatedModel& before, const EvaluatedModel& after, double floor) {
+  const double structure = square(before.ranked.held_out_rmse) - square(floor);
+  return structure > 0.0 ? (square(before.ranked.held_out_rmse) - square(after.ranked.held_out_rmse)) / structure : 0.0;
+}
+
+/// A force that goes with the body's own motion, not with the strut's.
+bool actsOnBody(const ActiveEffect& active) {
+  const auto rate = [&](double acceleration) {
+    return active.effect.memory_rate({1.0, 1.0, 1.0, 0.5, acceleration}, active.shapes.data());
+  };
+  return active.effect.memory_rate && (rate(0.0).s != rate(1.0).s || rate(0.0).second != rate(1.0).second);
+}
+
 class Search {
  public:
   Search(const Records& records, const HoldOut& held_out, const ModelFit& rough, std::size_t most_forces,
@@ -53,22 +204,225 @@ class Search {
         lagged_(lagged),
         evaluator_(records, held_out, outlierOf(rough), most_forces, options, lagged) {}
 
-  SearchResult run(const ModelFit& rough);
+  SearchResult run(const ModelFit& rough) {
+    base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
+    if (!base_.ranked.fitted && lagged_) base_ = evaluator_.asItIs(rough);
+    if (!base_.ranked.fitted) {
+      result_.shortcoming = Shortcoming::kNoStableFit;
+      return result_;
+    }
+    report(kStarted);
+    result_.base = base_.ranked;
+    result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
+    result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
+    turning_share_ = shareOfTurning(records_, evaluator_.heldOut(), evaluator_.motionOf(base_));
+    EvaluatedModel last = extend(base_, 0);
+    if (namesBeyond(base_, last).size() > 1) last = extendRivals(last);
+    last = refine(last);
+    // What several names explain no better than one does, one explains.
+    if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
+      result_.indistinguishable.clear();
+      result_.separating.clear();
+      last = suspect_->chosen;
+      noteGroup(*suspect_);
+    }
+    result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
+    conclude(last);
+    report(1.0);
+    return result_;
+  }
 
  private:
   void report(double share) const {
     if (options_.progress) options_.progress(share);
   }
-  void noteGroup(const Selection& selection);
-  EvaluatedModel extend(EvaluatedModel current, int round);
-  EvaluatedModel extendRivals(EvaluatedModel best);
-  EvaluatedModel refine(EvaluatedModel current);
-  EvaluatedModel withoutSuperfluous(EvaluatedModel current) const;
-  EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick);
-  bool standsAlone(const EvaluatedModel& candidate) const;
-  void conclude(const EvaluatedModel& last);
-  void name(Verdict verdict, const EvaluatedModel& model);
-  FittedModel finalFit(const EvaluatedModel& last) const;
+
+  void noteGroup(const Selection& selection) {
+    if (mayBeTilt(selection.chosen.ranked.model, selection.chosen.added, records_)) {
+      Names group = selection.group;
+      if (!contains(group, kTilt)) group.emplace_back(kTilt);
+      result_.indistinguishable.push_back(group);
+      result_.separating.push_back({group, DriveKind::kAtRest, 0.0, 0.0});
+      return;
+    }
+    if (selection.group.size() < 2) return;
+    result_.indistinguishable.push_back(selection.group);
+    result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen), selection));
+  }
+
+  // Forward selection: the best addition as long as it pays.
+  // @param round  how many the model has already.
+  EvaluatedModel extend(EvaluatedModel current, int round) {
+    for (; round < options_.most_effects; ++round) {
+      const double done = kStarted + kForward * round / options_.most_effects;
+      const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
+      std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
+      if (round > 0)
+        ranking.erase(std::remove_if(ranking.begin(), ranking.end(),
+                                     [this](const EvaluatedModel& each) { return !standsAlone(each); }),
+                      ranking.end());
+      if (round == 0) result_.ranking = asReported(ranking);
+      if (ranking.empty() || !ranking.front().ranked.fitted) break;
+      if (current.ranked.held_out_rmse < accuracyOfFreeRuns(records_)) break;
+      // Whatever a free run leaves of data that it was not fitted to is above the floor.
+      result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
+      if (!ranking.front().ranked.significant) break;
+      const Selection selection = select(ranking, evaluator_.heldOut());
+      if (round == 0) {
+        suspect_ = selection;
+        rivals_ = std::move(ranking);
+      }
+      current = withoutSuperfluous(selection.chosen);
+    }
+    return current;
+  }
+
+  // Of several effects that which explains most alone need not be one: a law with more numbers takes some of each. So
+  // every other that was fitted has its turn at being the first.
+  EvaluatedModel extendRivals(EvaluatedModel best) {
+    for (const EvaluatedModel& rival : rivals_) {
+      if (!rival.ranked.significant || contains(namesBeyond(base_, best), rival.added)) continue;
+      const EvaluatedModel other = extend(rival, 1);
+      if (other.loss < best.loss && complexity(other.ranked.model) <= complexity(best.ranked.model)) best = other;
+    }
+    return best;
+  }
+
+  // Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
+  EvaluatedModel refine(EvaluatedModel current) {
+    const Names found = namesBeyond(base_, current);
+    const bool only_suspect = found.size() == 1 && found.front() == suspect_->chosen.added;
+    if (only_suspect) noteGroup(*suspect_);
+    for (bool changed = !found.empty() && !only_suspect; changed;) {
+      result_.indistinguishable.clear();
+      result_.separating.clear();
+      const auto tick = [this](double) { report(kStarted + kForward); };
+      current = reconsidered(current, namesBeyond(base_, current), tick);
+      const std::size_t before = current.ranked.effects.size();
+      current.added.clear();  // none is too new to go
+      current = withoutSuperfluous(current);
+      changed = current.ranked.effects.size() < before;
+    }
+    return current;
+  }
+
+  // What the first effect explained, the later ones may explain better together.
+  EvaluatedModel withoutSuperfluous(EvaluatedModel current) const {
+    const std::string newest = current.added;
+    for (const std::string& name : namesBeyond(base_, current)) {
+      if (name == newest) continue;
+      const EvaluatedModel without = evaluator_.without(current, name);
+      if (without.ranked.fitted && !evaluator_.isWorthHaving(without, current)) current = without;
+    }
+    return current;
+  }
+
+  // Each effect was chosen before the later ones were known: is it still the one, and with which others is it confused?
+  EvaluatedModel reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick) {
+    for (const std::string& name : added) {
+      const EvaluatedModel without = evaluator_.without(current, name);
+      if (!without.ranked.fitted) continue;
+      const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(without, tick);
+      if (ranking.empty() || !ranking.front().ranked.fitted) continue;
+      const Selection selection = select(ranking, evaluator_.heldOut());
+      noteGroup(selection);
+      if (!contains(selection.group, name) ||
+          complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
+        current = selection.chosen;
+    }
+    return current;
+  }
+
+  // A sensor's fault is one on any drive: what helps only beside other effects imitates a part of theirs.
+  bool standsAlone(const EvaluatedModel& candidate) const {
+    const std::vector<ActiveMeasurementEffect>& readings = candidate.ranked.model.reading;
+    if (!candidate.ranked.significant || readings.empty() || readings.back().effect.name != candidate.added)
+      return true;
+    StrutModel alone = base_.ranked.model;
+    alone.reading.push_back(readings.back());
+    const EvaluatedModel evaluated = evaluator_.evaluate(alone, base_.fit.initial, &base_);
+    return evaluated.ranked.significant;
+  }
+
+  /// @return the noise floor of what a model leaves, see floorOfResidual().
+  double floorOf(const EvaluatedModel& after, double floor) const {
+    return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
+                           after.ranked.model);
+  }
+
+  /// Names are given if the model with them takes all of the structure but what counts as noise (kStructured), and as
+  /// much of what the best of them alone leaves. What sampling loses of the model's own forces, and what a sensor has
+  /// filtered, is noise.
+  /// @param before  the model with the best name alone; the base, if `after` has only one.
+  bool isExplained(const EvaluatedModel& after, const EvaluatedModel& before) const {
+    if (mayBeOtherStruts(after)) return false;
+    const auto takesAll = [&](double lowest) {
+      return std::min(shareOf(base_, after, lowest), shareOf(before, after, lowest)) > 1.0 - kStructured;
+    };
+    const double lowest = std::hypot(result_.noise_floor, lostInSampling(records_, after.fit));
+    if (takesAll(lowest)) return true;
+    // The rest may be noise that a sensor has filtered. Where only the reading is to be at fault, that has been there
+    // before: no law hid it.
+    const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
+    return !only_reading && takesAll(floorOf(after, lowest));
+  }
+
+  /// A suspect makes the error smaller by more than half (kMostOfIt of its mean square).
+  bool isSuspect(const EvaluatedModel& after) const {
+    return !mayBeOtherStruts(after) && shareOf(base_, after, 0.0) > kMostOfIt;
+  }
+
+  /// @return true if other struts of the same body may have done what is taken for something else: on a body that the
+  /// strut itself turns, see shareOfTurning(), they imitate any fault of its IMU but an offset, and forces on the body.
+  bool mayBeOtherStruts(const EvaluatedModel& after) const {
+    if (turning_share_ <= kWorthHaving) return false;
+    const StrutModel &given = base_.ranked.model, &model = after.ranked.model;
+    return std::any_of(model.effects.begin() + static_cast<std::ptrdiff_t>(given.effects.size()), model.effects.end(),
+                       actsOnBody) ||
+           std::any_of(model.reading.begin() + static_cast<std::ptrdiff_t>(given.reading.size()), model.reading.end(),
+                       [](const ActiveMeasurementEffect& fault) { return fault.effect.name != "accelerometer_bias"; });
+  }
+
+  void conclude(const EvaluatedModel& last) {
+    if (!suspect_) result_.noise_floor = floorOf(base_, result_.noise_floor);  // else a law takes a part of it
+    result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
+    if (result_.structured_share > 0.0)
+      result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
+    const std::size_t names = namesBeyond(base_, last).size();
+    const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
+    if (names > 0 && isExplained(last, before)) return name(Verdict::kEffectFound, last);
+    result_.indistinguishable.clear();
+    result_.separating.clear();
+    if (suspect_ && isSuspect(suspect_->chosen)) {
+      noteGroup(*suspect_);
+      result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
+      return name(Verdict::kSuspect, suspect_->chosen);
+    }
+    const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
+    result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
+    result_.base.model.is_complete = !structured;
+    if (result_.structured_share > 0.0)
+      result_.folded_share = foldedMotion(records_, base_.ranked.model) /
+                             (std::sqrt(result_.structured_share) * base_.ranked.held_out_rmse);
+    result_.turns_body = turning_share_ > kWorthHaving;
+  }
+
+  void name(Verdict verdict, const EvaluatedModel& model) {
+    result_.verdict = verdict;
+    result_.selected = namesBeyond(base_, model);
+    result_.explained_share = std::min(1.0, shareOf(base_, model, result_.noise_floor));
+    result_.extended = model.ranked;
+    result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
+    result_.final_fit = finalFit(model);
+    if (result_.final_fit)
+      result_.final_fit->model.is_complete = !isStructured(model.ranked.held_out_rmse, result_.noise_floor);
+  }
+
+  // To all samples; if the solver does not get there, the numbers of the fit that was judged are not worse than none.
+  FittedModel finalFit(const EvaluatedModel& last) const {
+    const FitOutcome fit = fitOutputError(records_, {}, last.ranked.model, last.fit.initial);
+    return fit ? FittedModel{fit->model, fit->stddev, true} : FittedModel{last.fit.model, last.fit.stddev, false};
+  }
 
   const Records& records_;
   const DiagnoseOptions& options_;
@@ -77,186 +431,9 @@ class Search {
   EvaluatedModel base_;
   std::optional<Selection> suspect_;    // the best addition to the base
   std::vector<EvaluatedModel> rivals_;  // all that were tried for it
-  std::optional<Explanation> explanation_;
+  double turning_share_ = 0.0;          // shareOfTurning() of the base
   SearchResult result_;
 };
-
-void Search::noteGroup(const Selection& selection) {
-  if (mayBeTilt(selection.chosen.ranked.model, selection.chosen.added, records_)) {
-    Names group = selection.group;
-    if (!contains(group, kTilt)) group.emplace_back(kTilt);
-    result_.indistinguishable.push_back(group);
-    result_.separating.push_back({group, DriveKind::kAtRest, 0.0, 0.0});
-    return;
-  }
-  if (selection.group.size() < 2) return;
-  result_.indistinguishable.push_back(selection.group);
-  result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen), selection));
-}
-
-// What the first effect explained, the later ones may explain better together.
-EvaluatedModel Search::withoutSuperfluous(EvaluatedModel current) const {
-  const std::string newest = current.added;
-  for (const std::string& name : namesBeyond(base_, current)) {
-    if (name == newest) continue;
-    const EvaluatedModel without = evaluator_.without(current, name);
-    if (without.ranked.fitted && !evaluator_.isWorthHaving(without, current)) current = without;
-  }
-  return current;
-}
-
-// Each effect was chosen before the later ones were known: is it still the one, and with which others is it confused?
-EvaluatedModel Search::reconsidered(EvaluatedModel current, const Names& added, const ModelEvaluator::Tick& tick) {
-  for (const std::string& name : added) {
-    const EvaluatedModel without = evaluator_.without(current, name);
-    if (!without.ranked.fitted) continue;
-    const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(without, tick);
-    if (ranking.empty() || !ranking.front().ranked.fitted) continue;
-    const Selection selection = select(ranking, evaluator_.heldOut());
-    noteGroup(selection);
-    if (!contains(selection.group, name) ||
-        complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
-      current = selection.chosen;
-  }
-  return current;
-}
-
-// A sensor's fault is one on any drive: what helps only beside other effects imitates a part of theirs.
-bool Search::standsAlone(const EvaluatedModel& candidate) const {
-  const std::vector<ActiveMeasurementEffect>& readings = candidate.ranked.model.reading;
-  if (!candidate.ranked.significant || readings.empty() || readings.back().effect.name != candidate.added) return true;
-  StrutModel alone = base_.ranked.model;
-  alone.reading.push_back(readings.back());
-  const EvaluatedModel evaluated = evaluator_.evaluate(alone, base_.fit.initial, &base_);
-  return evaluated.ranked.significant;
-}
-
-// Forward selection: the best addition as long as it pays.
-// @param round  how many the model has already.
-EvaluatedModel Search::extend(EvaluatedModel current, int round) {
-  for (; round < options_.most_effects; ++round) {
-    const double done = kStarted + kForward * round / options_.most_effects;
-    const auto tick = [&](double share) { report(done + kForward * share / options_.most_effects); };
-    std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(current, tick);
-    if (round > 0)
-      ranking.erase(std::remove_if(ranking.begin(), ranking.end(),
-                                   [this](const EvaluatedModel& each) { return !standsAlone(each); }),
-                    ranking.end());
-    if (round == 0) result_.ranking = asReported(ranking);
-    if (ranking.empty() || !ranking.front().ranked.fitted) break;
-    if (current.ranked.held_out_rmse < accuracyOfFreeRuns(records_)) break;
-    // Whatever a free run leaves of data that it was not fitted to is above the floor.
-    result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
-    if (!ranking.front().ranked.significant) break;
-    const Selection selection = select(ranking, evaluator_.heldOut());
-    if (round == 0) {
-      suspect_ = selection;
-      rivals_ = std::move(ranking);
-    }
-    current = withoutSuperfluous(selection.chosen);
-  }
-  return current;
-}
-
-// Of several effects that which explains most alone need not be one: a law with more numbers takes some of each. So
-// every other that was fitted has its turn at being the first.
-EvaluatedModel Search::extendRivals(EvaluatedModel best) {
-  for (const EvaluatedModel& rival : rivals_) {
-    if (!rival.ranked.significant || contains(namesBeyond(base_, best), rival.added)) continue;
-    const EvaluatedModel other = extend(rival, 1);
-    if (other.loss < best.loss && complexity(other.ranked.model) <= complexity(best.ranked.model)) best = other;
-  }
-  return best;
-}
-
-// Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
-EvaluatedModel Search::refine(EvaluatedModel current) {
-  const Names found = namesBeyond(base_, current);
-  const bool only_suspect = found.size() == 1 && found.front() == suspect_->chosen.added;
-  if (only_suspect) noteGroup(*suspect_);
-  for (bool changed = !found.empty() && !only_suspect; changed;) {
-    result_.indistinguishable.clear();
-    result_.separating.clear();
-    const auto tick = [this](double) { report(kStarted + kForward); };
-    current = reconsidered(current, namesBeyond(base_, current), tick);
-    const std::size_t before = current.ranked.effects.size();
-    current.added.clear();  // none is too new to go
-    current = withoutSuperfluous(current);
-    changed = current.ranked.effects.size() < before;
-  }
-  return current;
-}
-
-// To all samples; if the solver does not get there, the numbers of the fit that was judged are not worse than none.
-FittedModel Search::finalFit(const EvaluatedModel& last) const {
-  const FitOutcome fit = fitOutputError(records_, {}, last.ranked.model, last.fit.initial);
-  return fit ? FittedModel{fit->model, fit->stddev, true} : FittedModel{last.fit.model, last.fit.stddev, false};
-}
-
-void Search::conclude(const EvaluatedModel& last) {
-  if (!suspect_)
-    result_.noise_floor = explanation_->floorOf(base_, result_.noise_floor);  // else a law takes a part of it
-  result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
-  if (result_.structured_share > 0.0)
-    result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
-  const std::size_t names = namesBeyond(base_, last).size();
-  const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
-  if (names > 0 && explanation_->isExplained(last, before, result_.noise_floor))
-    return name(Verdict::kEffectFound, last);
-  result_.indistinguishable.clear();
-  result_.separating.clear();
-  if (suspect_ && explanation_->isSuspect(suspect_->chosen)) {
-    noteGroup(*suspect_);
-    result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
-    return name(Verdict::kSuspect, suspect_->chosen);
-  }
-  const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
-  result_.verdict = structured ? Verdict::kUnexplained : Verdict::kNothingMissing;
-  result_.base.model.is_complete = !structured;
-  if (result_.structured_share > 0.0)
-    result_.folded_share =
-        foldedMotion(records_, base_.ranked.model) / (std::sqrt(result_.structured_share) * base_.ranked.held_out_rmse);
-  result_.turns_body = explanation_->turningShare() > kWorthHaving;
-}
-
-void Search::name(Verdict verdict, const EvaluatedModel& model) {
-  result_.verdict = verdict;
-  result_.selected = namesBeyond(base_, model);
-  result_.explained_share = std::min(1.0, explanation_->share(model, result_.noise_floor));
-  result_.extended = model.ranked;
-  result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
-  result_.final_fit = finalFit(model);
-  if (result_.final_fit)
-    result_.final_fit->model.is_complete = !isStructured(model.ranked.held_out_rmse, result_.noise_floor);
-}
-
-SearchResult Search::run(const ModelFit& rough) {
-  base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
-  if (!base_.ranked.fitted && lagged_) base_ = evaluator_.asItIs(rough);
-  if (!base_.ranked.fitted) {
-    result_.shortcoming = Shortcoming::kNoStableFit;
-    return result_;
-  }
-  report(kStarted);
-  result_.base = base_.ranked;
-  result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
-  result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
-  explanation_.emplace(records_, evaluator_, base_);
-  EvaluatedModel last = extend(base_, 0);
-  if (namesBeyond(base_, last).size() > 1) last = extendRivals(last);
-  last = refine(last);
-  // What several names explain no better than one does, one explains.
-  if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
-    result_.indistinguishable.clear();
-    result_.separating.clear();
-    last = suspect_->chosen;
-    noteGroup(*suspect_);
-  }
-  result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
-  conclude(last);
-  report(1.0);
-  return result_;
-}
 
 SearchResult without(Shortcoming shortcoming) {
   SearchResult nothing;

@@ -1,12 +1,18 @@
 #include "model_evaluator.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <future>
 #include <numeric>
+#include <utility>
+#include <vector>
 
-#include "parallel.h"
-#include "rivals.h"
-#include "row_start.h"
+#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/fit/free_form.h"
+#include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
@@ -27,6 +33,272 @@ std::vector<std::string> namesOf(const StrutModel& model) {
 // It may do so in the stretches that are held out alone.
 FitFailure runningAway(const EvaluatedModel& evaluated) {
   return std::isfinite(evaluated.ranked.held_out_rmse) ? FitFailure::kNone : FitFailure::kRunsAway;
+}
+
+/// Calls work(i) for i = 0 .. count - 1 on several threads, the calling one among them, and tick() on the calling
+/// thread after each of its own items. What tick() throws ends the work early and passes on. work must not throw.
+template <class Work, class Tick>
+void forEachInParallel(std::size_t count, int threads, const Work& work, const Tick& tick) {
+  std::atomic<std::size_t> next{0};
+  const auto takeItems = [&](const auto& after) {
+    for (std::size_t i = next++; i < count; i = next++) {
+      work(i);
+      after();
+    }
+  };
+  std::vector<std::future<void>> helpers;  // their end waits for the threads
+  for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i)
+    helpers.push_back(std::async(std::launch::async, [&] { takeItems([] {}); }));
+  try {
+    takeItems(tick);
+  } catch (...) {
+    next = count;
+    throw;
+  }
+}
+
+constexpr std::size_t kMostRows = 4000;   // a start need not be better than the noise in them allows
+constexpr double kStretchPeriods = 32.0;  // natural periods: long against the memory of any law
+
+/// The parts of a segment that are looked at: all of it, or stretches that are spread evenly over it.
+/// @param share  of the samples, 0 .. 1.
+std::vector<std::pair<std::size_t, std::size_t>> stretchesOf(std::size_t size, std::size_t length, double share) {
+  if (share >= 1.0) return {{0, size}};
+  std::vector<std::pair<std::size_t, std::size_t>> stretches;
+  const auto step = static_cast<std::size_t>(static_cast<double>(length) / share);
+  for (std::size_t first = 0; first < size; first += step)
+    stretches.emplace_back(first, std::min(size, first + length));
+  return stretches;
+}
+
+/// Where a fit of a law may begin that the linear response cannot tell: one with a kink or a memory that carries so
+/// much of the strut's force that b1 and b0 without it are far from those beside it.
+///
+/// The travel is told by the measurements themselves, d'' = w'' - z'', integrated twice and once by an integral that
+/// forgets what is slower than a third of the natural frequency (motionError()). Along it the law is one more column of
+///   z'' = b1 v + b0 d + sum_j c_j f_j + c f,
+/// each behind the filter of the drive if it has one, by least squares over the training samples, shape by shape of the
+/// scan. Of long drives stretches are looked at, evenly spread. Too coarse for an estimate: the noise of the sensors is
+/// in d and v; it does for a start.
+class RowStart {
+ public:
+  /// @param fit  the present model: its effects stay, with their shapes.
+  RowStart(const Records& records, const HoldOut& held_out, const ModelFit& fit) : fit_(fit) {
+    const double b0 = fit.model.stiffness_to_mass;
+    const std::vector<const DriveSegment*> segments = segmentsOf(records);
+    double samples = 0.0;
+    for (const DriveSegment* segment : segments) samples += static_cast<double>(segment->size());
+    std::vector<double> measured, weight;
+    double travel = 0.0, rate = 0.0;
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      const DriveSegment& segment = *segments[s];
+      std::vector<double> relative = segment.driving;
+      for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
+      const MotionError motion = motionError(relative, meanOf({relative}), segment.period, b0);
+      const auto length =
+          static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * M_PI / (std::sqrt(b0) * segment.period)));
+      for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostRows / samples)) {
+        for (std::size_t k = first; k < end; ++k) {
+          motion_.push_back({motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
+          measured.push_back(segment.sprung[k]);
+          const bool is_whole = k >= first + segment.lead() && k + segment.lead() < end;  // what the filter reaches
+          weight.push_back(is_whole ? held_out.training[s][k] : 0.0);
+          travel += square(motion.travel[k]);
+          rate += square(motion.travel_rate[k]);
+        }
+        ends_.push_back(motion_.size());
+        taps_.push_back(segment.taps);
+      }
+    }
+    const auto count = static_cast<Eigen::Index>(motion_.size());
+    scale_ = {std::sqrt(travel / static_cast<double>(count)), std::sqrt(rate / static_cast<double>(count)),
+              1.0 / std::sqrt(b0)};
+    Eigen::MatrixXd common = forcesAlong(fit.model, motion_, ends_);
+    for (Eigen::Index j = 0; j < common.cols(); ++j) passLow(common.col(j));
+    rows_ = WeightedProjection(common, Eigen::Map<const Eigen::VectorXd>(weight.data(), count),
+                               Eigen::Map<const Eigen::VectorXd>(measured.data(), count));
+  }
+
+  struct Start {
+    StrutModel model;    ///< the present one with the effect added
+    double share = 0.0;  ///< of what the rows without the effect leave that it takes
+  };
+
+  /// @return nothing if no shape leaves a damped spring and a coefficient of the right sign.
+  std::optional<Start> with(const ForceEffect& effect) const {
+    std::optional<Start> best;
+    if (effect.lasts) return best;  // stretches know no heat
+    const double left = rows_.left();
+    for (const std::vector<double>& shapes : scanShapes(effect, scale_)) {
+      Eigen::VectorXd column = forceAlong(effect, shapes, motion_, ends_);
+      passLow(column);
+      const auto part = rows_.project(column);
+      if (!part) continue;
+      const double coefficient = part->coefficients[0], share = part->gain / left;
+      if (!(share > (best ? best->share : 0.0)) || (effect.positive && !(coefficient > 0.0))) continue;
+      StrutModel model = fit_.model;
+      model.damping_to_mass = part->common[0];
+      model.stiffness_to_mass = part->common[1];
+      if (!isDampedSpring(model)) continue;
+      for (std::size_t j = 0; j < model.effects.size(); ++j)
+        model.effects[j].coefficient = part->common[2 + static_cast<Eigen::Index>(j)];
+      model.effects.push_back({effect, coefficient, shapes});
+      best = Start{model, share};
+    }
+    return best;
+  }
+
+ private:
+  void passLow(Eigen::Ref<Eigen::VectorXd> column) const {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      auto stretch = column.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(ends_[i] - begin));
+      stretch = lowPassed(taps_[i], stretch);
+      begin = ends_[i];
+    }
+  }
+
+  const ModelFit& fit_;
+  std::vector<StrutMotion> motion_;        // per sample of all stretches
+  std::vector<std::size_t> ends_;          // of the stretches
+  std::vector<std::vector<double>> taps_;  // of the filter of each stretch
+  MotionScale scale_;
+  WeightedProjection rows_;  // of z'' by v, d and the forces of the present effects; weight 0 where held out
+};
+
+constexpr double kWindow = 4.0;  // natural periods
+
+/// A function by points (x, y), in straight lines between them and on along the outermost ones.
+using Polyline = std::vector<std::pair<double, double>>;
+
+double at(const Polyline& points, double x) {
+  if (points.empty()) return 0.0;
+  const auto after = std::lower_bound(points.begin() + 1, points.end() - 1, x,
+                                      [](const auto& point, double value) { return point.first < value; });
+  const auto& [x0, y0] = *(after - 1);
+  return y0 + (x - x0) / (after->first - x0) * (after->second - y0);
+}
+
+/// @return of every window ln of rms velocity over rms position of the wheel, and the time in its middle [s].
+Polyline windowsOf(const Records& records, double stiffness_to_mass) {
+  const double length_in_time = kWindow * 2.0 * M_PI / std::sqrt(stiffness_to_mass);
+  Polyline windows;
+  for (const DriveSegment* segment : segmentsOf(records)) {
+    const MotionError wheel = motionError(segment->unsprung, 0.0, segment->period, stiffness_to_mass);
+    const auto length = static_cast<std::size_t>(std::ceil(length_in_time / segment->period));
+    for (std::size_t first = 0; first + length <= segment->size(); first += length) {
+      double position = 0.0, velocity = 0.0;
+      for (std::size_t k = first; k < first + length; ++k) {
+        position += square(wheel.travel[k]);
+        velocity += square(wheel.travel_rate[k]);
+      }
+      if (!(position > 0.0 && velocity > 0.0)) continue;
+      windows.emplace_back(0.5 * std::log(velocity / position), segment->timeDriven(first + length / 2));
+    }
+  }
+  return windows;
+}
+
+/// The time that a window's frequency tells, by its own time: by the windows whose frequencies are next to its own, one
+/// below and one above, not by its own time. At the ends by the two next ones.
+Polyline toldByFrequency(Polyline windows) {
+  Polyline result;
+  if (windows.size() < 3) return result;
+  std::sort(windows.begin(), windows.end());
+  const auto time = [&](std::size_t i) { return windows[i].second; };
+  const auto last = windows.size() - 1;
+  result.emplace_back(time(0), 2.0 * time(1) - time(2));
+  for (std::size_t i = 1; i < last; ++i) result.emplace_back(time(i), (time(i - 1) + time(i + 1)) / 2.0);
+  result.emplace_back(time(last), 2.0 * time(last - 1) - time(last - 2));
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// s of the last effect over time.
+Polyline lastMemories(const ModelFit& fit, const Records& records) {
+  Polyline points;
+  std::vector<double> predicted;
+  std::vector<StrutState> motion;
+  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (!runFree(fit.model, *segments[s], fit.initial[s], predicted, &motion)) continue;
+    for (std::size_t k = 0; k < motion.size(); ++k)
+      points.emplace_back(segments[s]->timeDriven(k), motion[k].memory[fit.model.effects.size() - 1].s);
+  }
+  return points;
+}
+
+/// @return true if the force depends on time at some motion, or on a memory that lasts.
+bool changesSlowly(const ActiveEffect& active) {
+  if (active.effect.lasts) return true;
+  const auto force = [&](double time) { return active.effect.force({1.0, 1.0, time, 0.5}, active.shapes.data()); };
+  return force(0.0) != force(1.0) || force(1.0) != force(std::sqrt(2.0));
+}
+
+/// The rival of the last law of a fit, which changes slowly: the same with the time that the frequency of the wheel's
+/// motion tells, or with what it remembered at that time.
+/// Where that does as well, as on a sweep, nobody can tell a part that wears from one that answers to frequency.
+/// Frequency: ln of rms velocity over rms position of the wheel (motionError() of w'') in windows of four natural
+/// periods. It tells the mean time of the two windows that are next in frequency; in straight lines between the
+/// middles.
+ForceEffect frequencyRival(const ModelFit& fit, const Records& records, double stiffness_to_mass) {
+  const ActiveEffect& last = fit.model.effects.back();
+  const ForceEffect& effect = last.effect;
+  const Polyline told = toldByFrequency(windowsOf(records, stiffness_to_mass));
+  ForceEffect rival = effect;
+  if (effect.lasts) {
+    rival.memory_rate = {};
+    rival.lasts = false;
+    rival.shapes.clear();
+    rival.force = [told, law = effect.force, memory = lastMemories(fit, records), known = last.shapes](
+                      const StrutMotion& motion, const double*) {
+      StrutMotion there = motion;
+      there.memory = at(memory, at(told, motion.time));
+      return law(there, known.data());
+    };
+    return rival;
+  }
+  const auto instead = [told](const auto& law) {
+    return [told, law](const StrutMotion& motion, const double* shapes) {
+      StrutMotion there = motion;
+      there.time = at(told, motion.time);
+      return law(there, shapes);
+    };
+  };
+  rival.force = instead(effect.force);
+  if (effect.memory_rate) rival.memory_rate = instead(effect.memory_rate);
+  return rival;
+}
+
+/// How far a residual wanders more slowly than the strut moves [m/s^2, rms]. Any strut passes what is slow as it is, so
+/// that no law of one leaves this: it is a reading that wanders, as that of a body that leans does, or of a sensor that
+/// drifts. It is what the means over neighbouring windows of a natural period have in common; noise has nothing.
+/// @param natural_period  [samples].
+double wandering(const Residuals& residuals, double natural_period) {
+  const auto length = static_cast<std::size_t>(std::max(1.0, std::ceil(natural_period)));
+  const double mean = meanOf(residuals);
+  double products = 0.0, count = 0.0;
+  for (const std::vector<double>& segment : residuals) {
+    double last = 0.0;
+    for (std::size_t first = 0; first + length <= segment.size(); first += length) {
+      double sum = 0.0;
+      for (std::size_t k = first; k < first + length; ++k) sum += segment[k] - mean;
+      if (first > 0) {
+        products += last * sum;
+        count += square(static_cast<double>(length));
+      }
+      last = sum;
+    }
+  }
+  return products > 0.0 ? std::sqrt(products / count) : 0.0;
+}
+
+/// @return true if a fault of the reading makes an offset above all, and that is not larger than what wanders beside
+/// it: then it is no constant, and no fault of a sensor.
+bool isWanderingOffset(const Residuals& before, const Residuals& after, double natural_period) {
+  const double offset = meanOf(before) - meanOf(after);
+  return square(offset) > kMostOfIt * (meanSquare(before) - meanSquare(after)) &&
+         std::abs(offset) < normalQuantile(kSure) * wandering(after, natural_period);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "suspension_health_monitor/internal/signal/readings.h"
 
@@ -12,10 +14,7 @@ namespace {
 
 // Where the energy of a wheel's motion is counts most; near Nyquist's frequency an error is cheaper than the length
 // that would avoid it. Bands from 0, as shares of Nyquist's frequency, and their weights.
-struct Band {
-  double edge, weight;
-};
-constexpr Band kBands[] = {{0.5, 1.0}, {0.75, 1e-2}, {0.9, 1e-4}};
+constexpr std::pair<double, double> kBands[] = {{0.5, 1.0}, {0.75, 1e-2}, {0.9, 1e-4}};
 constexpr double kRidge = 1e-12;  // keeps the weights small where the bands leave them free
 
 double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
@@ -23,7 +22,7 @@ double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; }
 // Weighted mean of cos(omega x) over the bands.
 double bandMean(double x) {
   double sum = 0.0;
-  for (const Band& band : kBands) sum += band.weight * band.edge * sinc(band.edge * M_PI * x);
+  for (const auto& [edge, weight] : kBands) sum += weight * edge * sinc(edge * M_PI * x);
   return sum;
 }
 
@@ -70,13 +69,10 @@ namespace {
 constexpr double kWidestFlat = 0.24, kWidestStop = 0.42;
 constexpr int kFrequencies = 2000;  // at which the errors are summed: many more than the taps can tell apart
 
-struct FilterPair {
-  Eigen::VectorXd value, rate;  // taps from the oldest sample to the newest; the rate per sample
-};
-
 /// With q = 2 pi f T: H = h_0 + 2 sum_n h_n cos(n q), T G = 2j sum_n g_n sin(n q).
 /// @param flat, stop  in cycles per sample.
-FilterPair makePair(int delay, double flat, double stop) {
+/// @return taps from the oldest sample to the newest, of the value and of the rate per sample.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> makePair(int delay, double flat, double stop) {
   const int unknowns = 2 * delay + 1;  // h_0 .. h_delay, g_1 .. g_delay
   const Eigen::ArrayXd frequencies = Eigen::ArrayXd::LinSpaced(kFrequencies + 1, 0.0, 0.5),
                        q = 2.0 * M_PI * frequencies;
@@ -101,15 +97,15 @@ FilterPair makePair(int delay, double flat, double stop) {
   right.tail<2>().setOnes();
   const Eigen::VectorXd taps = normal.partialPivLu().solve(right);
 
-  FilterPair pair{Eigen::VectorXd(2 * delay + 1), Eigen::VectorXd(2 * delay + 1)};
-  pair.value[delay] = taps[0];
-  pair.rate[delay] = 0.0;
+  Eigen::VectorXd value(2 * delay + 1), rate(2 * delay + 1);
+  value[delay] = taps[0];
+  rate[delay] = 0.0;
   for (int n = 1; n <= delay; ++n) {
-    pair.value[delay + n] = pair.value[delay - n] = taps[n];
-    pair.rate[delay + n] = taps[delay + n];
-    pair.rate[delay - n] = -taps[delay + n];
+    value[delay + n] = value[delay - n] = taps[n];
+    rate[delay + n] = taps[delay + n];
+    rate[delay - n] = -taps[delay + n];
   }
-  return pair;
+  return {value, rate};
 }
 
 }  // namespace
@@ -122,9 +118,8 @@ MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t diffe
       instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
       history_(filtered + differentiated, DelayLine(2 * delay_ + 1)),
       stamps_(static_cast<std::size_t>(2 * delay_ + 1)) {
-  const FilterPair pair = makePair(delay_, flat_ * toSeconds(period), stop() * toSeconds(period));
-  value_ = pair.value;
-  rate_ = pair.rate / toSeconds(period);
+  std::tie(value_, rate_) = makePair(delay_, flat_ * toSeconds(period), stop() * toSeconds(period));
+  rate_ /= toSeconds(period);
 }
 
 double MotionFilter::stop() const { return flat_ * kWidestStop / kWidestFlat; }

@@ -6,21 +6,20 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFarOut = 1.5;           // mean deviations from the mean: as far as a sine's peak
-constexpr double kFineResolution = 0.02;  // step over span of a sensor whose repeated values mean something
-constexpr double kBandOfSpan = 0.02;
+constexpr double kFarOut = 1.5;     // mean deviations from the mean: as far as a sine's peak
+constexpr double kFine = 0.02;      // of the span: a band at its end, and the step below which repeated values mean something
 constexpr double kBandSteps = 8.5;  // eight steps, however their differences are rounded
 
 }  // namespace
 
-void RangeEnd::add(double reading, int equal_in_a_row, const UsualReadings& usual) {
-  count(reading, std::max(kBandOfSpan * usual.span, kBandSteps * usual.finest_step));
-  countFlatTops(reading, equal_in_a_row, usual.repeated);
-  if (!in_flat_top_ || flat_tops_ > 1 || equal_in_a_row < kStuck) {
-    const bool far_out = std::abs(reading - usual.mean) > kFarOut * usual.deviation;
-    const bool fine = usual.finest_step < kFineResolution * usual.span;
+void RangeEnd::add(double reading, const ReadingStatistics& all, double span) {
+  count(reading, std::max(kFine * span, kBandSteps * all.finestStep()));
+  countFlatTops(reading, all);
+  if (!in_flat_top_ || flat_tops_ > 1 || all.equalInARow() < ReadingStatistics::kStuck) {
+    const bool far_out = std::abs(reading - all.mean()) > kFarOut * all.deviation();
+    const bool fine = all.finestStep() < kFine * span;
     // A sensor that reads 0 is dead: no range ends there.
-    if (in_flat_top_ && usual.known && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kAgain))
+    if (in_flat_top_ && all.areUsual() && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kAgain))
       limit_ = reading;
   } else {
     limit_.reset();
@@ -42,32 +41,21 @@ void RangeEnd::count(double reading, double band) {
   }
 }
 
-void RangeEnd::countFlatTops(double reading, int equal_in_a_row, double repeated) {
-  const double usual_run = 1.0 / std::max(1.0 - repeated, 1e-6);
-  const bool flat = reading == extreme_ && equal_in_a_row + 0.5 > kFlatTop * usual_run;
+void RangeEnd::countFlatTops(double reading, const ReadingStatistics& all) {
+  const double usual_run = 1.0 / std::max(1.0 - all.repeated(), 1e-6);
+  const bool flat = reading == extreme_ && all.equalInARow() + 0.5 > kFlatTop * usual_run;
   if (flat && !in_flat_top_) flat_tops_ = std::min(flat_tops_ + 1, kAgain);
   in_flat_top_ = flat;
 }
 
-namespace {
-
-constexpr double kFewestForUsual = 100.0;
-
-}  // namespace
-
 void ReadingStatistics::add(double reading, bool is_extreme) {
   const double step = last_ ? std::abs(reading - *last_) : 0.0;
-  equal_in_a_row_ = last_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, RangeEnd::kStuck) : 1;
+  equal_in_a_row_ = last_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, kStuck) : 1;
   if (step > 0.0) finest_step_ = finest_step_ > 0.0 ? std::min(finest_step_, step) : step;
   last_ = reading;
   mean_.add(reading);
   deviation_.add(std::abs(reading - mean_.mean()));
   if (!is_extreme) repeated_.add(step == 0.0 ? 1.0 : 0.0);
-}
-
-UsualReadings ReadingStatistics::usual(double span) const {
-  const bool known = std::min(mean_.weight(), repeated_.weight()) >= kFewestForUsual;
-  return {mean(), deviation(), finest_step_, span, repeated_.mean(), known};
 }
 
 namespace {
@@ -124,9 +112,8 @@ bool StreamGate::isAbsurd(double acceleration) {
 
 bool StreamGate::isClipped(double acceleration) {
   statistics_.add(acceleration, acceleration == upper_.extreme() || acceleration == lower_.extreme());
-  const UsualReadings usual = statistics_.usual(upper_.extreme() ? *upper_.extreme() - *lower_.extreme() : 0.0);
-  upper_.add(acceleration, statistics_.equalInARow(), usual);
-  lower_.add(acceleration, statistics_.equalInARow(), usual);
+  const double span = upper_.extreme() ? *upper_.extreme() - *lower_.extreme() : 0.0;
+  for (RangeEnd* end : {&upper_, &lower_}) end->add(acceleration, statistics_, span);
   return acceleration == upper_.limit() || acceleration == lower_.limit();
 }
 

@@ -85,7 +85,7 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   return found;
 }
 
-// From what rounds to the usual lean on.
+// From what rounds to kUsualLean on.
 bool MountClaim::Finding::isLeaning() const { return lean > kUsualLean - 0.5 / 180.0 * M_PI + kProven * lean_stddev; }
 
 bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kOtherAxis; }

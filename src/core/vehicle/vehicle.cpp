@@ -1,13 +1,15 @@
 #include "suspension_health_monitor/vehicle.h"
 
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "separator.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 #include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -15,6 +17,7 @@
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
+namespace {
 
 /// @param options  by strut, or one that is meant for all, or none: the defaults.
 /// @return by strut.
@@ -36,10 +39,10 @@ std::optional<double> samplePeriodOf(const std::vector<Options>& options) {
 }
 
 /// @return true for a strut alone, which has no name and nothing that it is to be separated from.
-inline bool isOneStrut(const std::vector<std::string>& names) { return names.size() == 1 && names.front().empty(); }
+bool isOneStrut(const std::vector<std::string>& names) { return names.size() == 1 && names.front().empty(); }
 
 /// @throws std::invalid_argument  if a drive has another number of struts.
-inline std::vector<Drive> drivesOfOne(const std::vector<VehicleDrive>& drives) {
+std::vector<Drive> drivesOfOne(const std::vector<VehicleDrive>& drives) {
   std::vector<Drive> own;
   for (const VehicleDrive& drive : drives) {
     if (drive.struts.size() != 1) throw std::invalid_argument("a drive of more than one strut, must be of one");
@@ -48,8 +51,6 @@ inline std::vector<Drive> drivesOfOne(const std::vector<VehicleDrive>& drives) {
   return own;
 }
 
-namespace {
-
 MonitorSettings settingsOf(const IdentifyOptions& options, double period) {
   MonitorOptions monitor;
   monitor.sample_period = period;
@@ -57,6 +58,106 @@ MonitorSettings settingsOf(const IdentifyOptions& options, double period) {
   if (options.horizon_samples) monitor.integration_horizon = *options.horizon_samples * period;
   return monitor;
 }
+
+/// Struts with what is known of them, to be separated again as more is known.
+class Separator {
+ public:
+  /// @param drives  must outlive this object.
+  Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+            const std::optional<double>& sample_period, const KnownModels& known)
+      : drives_(drives), period_(periodOf(drives, names, sample_period)) {
+    if (!known.empty() && known.size() != names.size())
+      throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
+                                  std::to_string(names.size()) + " or of none");
+    learnRows(names);
+    if (!coupling_) {
+      if (isUndersampled()) coupling_.reason += kWheelsFolded;
+      return;
+    }
+    models_ = rows_.models();
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (known[i]) models_[i] = *known[i];
+    noise_ = separateNoise(knownNoise(drives.front().noise, names.size()), period_, rows_);
+  }
+
+  const VehicleCoupling& coupling() const { return coupling_; }
+  const std::vector<StrutModel>& models() const { return models_; }
+  double period() const { return period_; }
+
+  void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
+
+  /// @return true if one IMU tells of the tops of several struts.
+  bool sharesNoise() const { return mostStrutsOfASensor(drives_.front().noise) > 1; }
+
+  /// Fits the models of these struts to the drives as an estimator sees them, and takes them from then on.
+  /// @return what was fitted; nothing where that failed.
+  std::vector<std::optional<ModelFit>> fitModels(const std::vector<std::size_t>& struts) {
+    const std::vector<std::vector<Drive>> separated = separate(false);
+    std::vector<std::optional<ModelFit>> fits;
+    for (const std::size_t i : struts) {
+      const std::deque<DriveRecord> records = makeRecords(separated[i], period_, models_[i]);
+      fits.emplace_back(fitOutputError(pointersTo(records), {}, models_[i]));
+      if (fits.back()) models_[i] = fits.back()->model;
+    }
+    return fits;
+  }
+
+  /// @param for_search  without what the models as they are now tell of the noise of shared sensors. Their errors are
+  /// in there instead, of which an estimator's standard deviations would know nothing. What shared noise does to one
+  /// strut is told from all others.
+  /// @return by strut and drive.
+  std::vector<std::vector<Drive>> separate(bool for_search) const {
+    std::vector<StrutDrives> drives;
+    for (const VehicleDrive& drive : drives_) drives.push_back(separateStruts(drive, period_, rows_, models_));
+    StrutDrives noise = noise_;
+    if (for_search && sharesNoise()) takeSharedNoise(drives, noise, period_, models_);
+    std::vector<std::vector<Drive>> struts(noise.size());
+    for (std::size_t i = 0; i < struts.size(); ++i) {
+      for (StrutDrives& drive : drives) struts[i].push_back(std::move(drive[i]));
+      struts[i].front().noise = std::move(noise[i].samples);
+    }
+    return struts;
+  }
+
+ private:
+  // Samples are what a grid made of the readings: every strut has two accelerometers, as it seems.
+  void learnRows(const std::vector<std::string>& names) {
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(names.size(), drives_.front().forces.size()), BlockOptions{},
+                         period_);
+    for (const VehicleDrive& drive : drives_) {
+      if (&drive != &drives_.front()) blocks.restart();
+      for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));
+    }
+    const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
+    const auto of_body_imu = static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise));
+    const VehicleMistake mistake =
+        blocks.claims(of_body_imu == names.size() ? drives_.front().places : StrutPlaces{}).find();
+    const bool are_known = rows && rows->areKnown() && !mistake.isContradiction();
+    std::optional<BodyFitResult> body;
+    if (are_known) {
+      if (names.size() > 1) body = BodyFit::of(names.size(), drives_.front().places).fit(*rows, blocks.rowsOfHalves());
+      rows_ = body ? body->combined(*rows) : *rows;
+    }
+    coupling_ = describe(are_known ? &rows_ : nullptr, body, are_known ? "" : whyNotCoupled(mistake, names),
+                         namesOf(drives_.front().forces));
+  }
+
+  bool isUndersampled() const {
+    return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
+      return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
+        const DriveRecord record(strut, period_);
+        return shareAtSamplingLimit({&record}) > kMostFolded;
+      });
+    });
+  }
+
+  const std::vector<VehicleDrive>& drives_;
+  double period_;
+  BodyRows rows_;
+  VehicleCoupling coupling_;
+  std::vector<StrutModel> models_;
+  StrutDrives noise_;  // empty without a coupling
+};
 
 bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
 
@@ -67,7 +168,7 @@ SeparatedVehicle separateVehicle(const std::vector<VehicleDrive>& drives, const 
   if (isOneStrut(names)) return {{}, {drivesOfOne(drives)}, {}};
   const Separator separator(drives, names, sample_period, models);
   SeparatedVehicle separated{separator.coupling(), {}, separator.models()};
-  if (separated.coupling) separated.struts = separator.separate();
+  if (separated.coupling) separated.struts = separator.separate(false);
   return separated;
 }
 
@@ -132,7 +233,16 @@ class VehicleSearch {
     result_.drives.resize(size());
   }
 
-  VehicleDiagnosis run(const std::vector<std::string>& strut_names);
+  VehicleDiagnosis run(const std::vector<std::string>& strut_names) {
+    settleOpen();
+    if (settled_.size() > 1) reconsider();
+    dropMarginal();
+    fitFound();
+    result_.verdict = worstOf(result_);
+    result_.summary = summaryOf(result_, strut_names);
+    if (progress()) progress()(1.0);
+    return result_;
+  }
 
  private:
   std::size_t size() const { return separator_.models().size(); }
@@ -140,12 +250,85 @@ class VehicleSearch {
   bool isSettled(std::size_t strut) const {
     return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
   }
-  void fitGiven();
-  void fitFound();
-  void judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects);
-  void settleOpen();
-  void reconsider();
-  void dropMarginal();
+
+  // What models leave tells of noise that struts share only as far as they are those of these drives.
+  void fitGiven() {
+    if (!separator_.sharesNoise()) return;
+    std::vector<std::size_t> given;
+    for (std::size_t i = 0; i < models_.size(); ++i)
+      if (models_[i]) given.push_back(i);
+    separator_.fitModels(given);
+  }
+
+  // What a law that was not known yet does was taken for noise that struts share, in part: its numbers come from drives
+  // as an estimator sees them.
+  void fitFound() {
+    if (!separator_.sharesNoise()) return;
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (names(result_.struts[i])) found.push_back(i);
+    const std::vector<std::optional<ModelFit>> fits = separator_.fitModels(found);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      Diagnosis& strut = result_.struts[found[k]];
+      if (!fits[k]) continue;
+      const bool is_complete = strut.model().is_complete;
+      strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
+      strut.final_fit->model.is_complete = is_complete;
+    }
+  }
+
+  void judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
+    DiagnoseOptions options = options_[strut];
+    options.most_effects = most_effects;
+    options.sample_period = separator_.period();
+    options.model = models_.empty() ? std::nullopt : models_[strut];
+    if (progress()) options.progress = [&](double share) { progress()(done_ + share * step); };
+    Diagnosis& found = result_.struts[strut];
+    found = diagnose(drives, options);
+    result_.drives[strut] = std::move(drives);
+    if (found) separator_.setModel(strut, found.base.model);
+    done_ += step;
+  }
+
+  void settleOpen() {
+    while (settled_.size() < size()) {
+      auto separated = separator_.separate(true);
+      // What another round takes is not known.
+      const double step = (1.0 - done_) / (static_cast<double>(size() - settled_.size()) + 1.0);
+      std::optional<std::size_t> best;
+      for (std::size_t i = 0; i < size(); ++i) {
+        if (isSettled(i)) continue;
+        judge(i, std::move(separated[i]), step, options_[i].most_effects);
+        const Diagnosis& found = result_.struts[i];
+        if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
+      }
+      if (!best) return;
+      // What the others seem to lack may be this effect: they are judged anew without it.
+      settled_.push_back(*best);
+      separator_.setModel(*best, result_.struts[*best].model());
+    }
+  }
+
+  // What was named first may have been that of a strut which was named later.
+  void reconsider() {
+    const std::vector<std::size_t> before = std::exchange(settled_, {});
+    const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
+    for (const std::size_t strut : before) {
+      judge(strut, std::move(separator_.separate(true)[strut]), step, options_[strut].most_effects);
+      if (!names(result_.struts[strut])) continue;
+      settled_.push_back(strut);
+      separator_.setModel(strut, result_.struts[strut].model());
+    }
+    if (settled_.size() < before.size()) settleOpen();
+  }
+
+  // A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
+  void dropMarginal() {
+    double most = 0.0;
+    for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
+    for (const std::size_t strut : settled_)
+      if (explainedPower(result_.struts[strut]) < kWorthHaving * most) judge(strut, result_.drives[strut], 0.0, 0);
+  }
 
   Separator separator_;
   std::vector<DiagnoseOptions> options_;  // by strut
@@ -154,96 +337,6 @@ class VehicleSearch {
   std::vector<std::size_t> settled_;  // struts that lack something, in the order in which it was found
   double done_ = 0.0;                 // of the progress
 };
-
-// What models leave tells of noise that struts share only as far as they are those of these drives.
-void VehicleSearch::fitGiven() {
-  if (!separator_.sharesNoise()) return;
-  std::vector<std::size_t> given;
-  for (std::size_t i = 0; i < models_.size(); ++i)
-    if (models_[i]) given.push_back(i);
-  separator_.fitModels(given);
-}
-
-// What a law that was not known yet does was taken for noise that struts share, in part: its numbers come from drives
-// as an estimator sees them.
-void VehicleSearch::fitFound() {
-  if (!separator_.sharesNoise()) return;
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < size(); ++i)
-    if (names(result_.struts[i])) found.push_back(i);
-  const std::vector<std::optional<ModelFit>> fits = separator_.fitModels(found);
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    Diagnosis& strut = result_.struts[found[k]];
-    if (!fits[k]) continue;
-    const bool is_complete = strut.model().is_complete;
-    strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
-    strut.final_fit->model.is_complete = is_complete;
-  }
-}
-
-void VehicleSearch::judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
-  DiagnoseOptions options = options_[strut];
-  options.most_effects = most_effects;
-  options.sample_period = separator_.period();
-  options.model = models_.empty() ? std::nullopt : models_[strut];
-  if (progress()) options.progress = [&](double share) { progress()(done_ + share * step); };
-  Diagnosis& found = result_.struts[strut];
-  found = diagnose(drives, options);
-  result_.drives[strut] = std::move(drives);
-  if (found) separator_.setModel(strut, found.base.model);
-  done_ += step;
-}
-
-void VehicleSearch::settleOpen() {
-  while (settled_.size() < size()) {
-    auto separated = separator_.separateForSearch();
-    // What another round takes is not known.
-    const double step = (1.0 - done_) / (static_cast<double>(size() - settled_.size()) + 1.0);
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (isSettled(i)) continue;
-      judge(i, std::move(separated[i]), step, options_[i].most_effects);
-      const Diagnosis& found = result_.struts[i];
-      if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
-    }
-    if (!best) return;
-    // What the others seem to lack may be this effect: they are judged anew without it.
-    settled_.push_back(*best);
-    separator_.setModel(*best, result_.struts[*best].model());
-  }
-}
-
-// What was named first may have been that of a strut which was named later.
-void VehicleSearch::reconsider() {
-  const std::vector<std::size_t> before = std::exchange(settled_, {});
-  const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
-  for (const std::size_t strut : before) {
-    judge(strut, std::move(separator_.separateForSearch()[strut]), step, options_[strut].most_effects);
-    if (!names(result_.struts[strut])) continue;
-    settled_.push_back(strut);
-    separator_.setModel(strut, result_.struts[strut].model());
-  }
-  if (settled_.size() < before.size()) settleOpen();
-}
-
-// A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
-void VehicleSearch::dropMarginal() {
-  double most = 0.0;
-  for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
-  for (const std::size_t strut : settled_)
-    if (explainedPower(result_.struts[strut]) < kWorthHaving * most) judge(strut, result_.drives[strut], 0.0, 0);
-}
-
-VehicleDiagnosis VehicleSearch::run(const std::vector<std::string>& strut_names) {
-  settleOpen();
-  if (settled_.size() > 1) reconsider();
-  dropMarginal();
-  fitFound();
-  result_.verdict = worstOf(result_);
-  result_.summary = summaryOf(result_, strut_names);
-  if (progress()) progress()(1.0);
-  return result_;
-}
 
 }  // namespace
 

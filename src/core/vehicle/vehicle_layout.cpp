@@ -190,7 +190,7 @@ VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
                                       [](const VehicleLayout::Strut& strut) { return !strut.sprung_imu; });
   if (needs_body) {
     if (!layout.body_imu) throw std::invalid_argument("body_imu is missing: a strut has no sprung_imu");
-    channels.body_imu = add(*layout.body_imu, Place::kBody, 6, "body_imu");
+    channels.body_imu = add(*layout.body_imu, Place::kBody, 2 * 3, "body_imu");
   }
   for (const VehicleLayout::Strut& strut : layout.struts) {
     const std::string where = "struts/" + strut.name;

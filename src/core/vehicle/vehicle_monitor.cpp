@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -16,27 +16,24 @@ constexpr double kModelsEvery = 0.1;  // [s]
 // Half of the blocks are new then, of those that there are or that are kept.
 constexpr Stamp kBodyFirst = std::chrono::seconds(5), kBodyEvery = std::chrono::seconds(30);
 
-Stamp periodOf(const std::vector<VehicleMonitor::Start>& starts) {
-  requireNumStruts(starts.size());
-  const std::optional<double>& period = starts.front().settings.sample_period;
-  for (const VehicleMonitor::Start& start : starts) {
-    const MonitorSettings& each = start.settings;
-    if (!each.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
-    if (*each.sample_period != *period)
-      throw std::invalid_argument("sample_period differs between struts, must be the same for all of a vehicle");
-    each.validate();
-  }
-  return fromSeconds(*period);
-}
-
 }  // namespace
 
-VehicleMonitor::VehicleMonitor(std::vector<Start> starts, Sink sink, int num_forces)
-    : period_(periodOf(starts)),
-      sink_(std::move(sink)),
-      starts_(std::move(starts)),
+VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces)
+    : sink_(std::move(sink)),
+      starts_(settings.begin(), settings.end()),
       num_forces_(num_forces),
       is_alone_(starts_.size() == 1 && num_forces == 0) {
+  requireNumStruts(starts_.size());
+  for (const MonitorSettings& each : settings) each.validate();
+  if (settings.front().sample_period) begin(*settings.front().sample_period);
+}
+
+void VehicleMonitor::begin(double period) {
+  for (Start& start : starts_) {
+    start.settings.sample_period = period;
+    start.settings.validate();
+  }
+  period_ = fromSeconds(period);
   if (is_alone_) beginStruts();
 }
 
@@ -50,19 +47,26 @@ void VehicleMonitor::beginStruts() {
 
 void VehicleMonitor::setEffects(std::size_t strut, const std::vector<ActiveEffect>& effects,
                                 const std::optional<LinearStrut>& start) {
-  if (isCoupled()) return struts_[strut].setEffects(effects, start);
   requireUsable(effects);
+  if (isCoupled()) return struts_[strut].setEffects(effects, start);
   starts_[strut].effects = effects;
   starts_[strut].strut = start;
 }
 
 void VehicleMonitor::setBaseline(std::size_t strut, const Baseline& baseline) {
+  for (const auto& [name, value] : {std::pair("baseline damping_to_mass", baseline.damping_to_mass),
+                                    std::pair("baseline stiffness_to_mass", baseline.stiffness_to_mass)})
+    if (value) requireAboveZero(name, *value, "");
   if (isCoupled()) return struts_[strut].setBaseline(baseline);
   starts_[strut].baseline = baseline;
 }
 
+Baseline VehicleMonitor::baseline(std::size_t strut) const {
+  return isCoupled() ? struts_[strut].baseline() : starts_[strut].baseline.value_or(Baseline{});
+}
+
 void VehicleMonitor::reconfigure(std::size_t strut, MonitorSettings settings) {
-  settings.sample_period = toSeconds(period_);
+  settings.sample_period = starts_[strut].settings.sample_period;
   if (!settings.integration_horizon) settings.integration_horizon = starts_[strut].settings.integration_horizon;
   if (isCoupled()) struts_[strut].reconfigure(settings);
   starts_[strut].settings = settings;

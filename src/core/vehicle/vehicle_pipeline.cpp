@@ -56,59 +56,29 @@ VehiclePipeline::Sinks sinksOf(std::function<void(const MonitorReport&)> report)
 
 VehiclePipeline::VehiclePipeline(const std::vector<MonitorSettings>& settings, const VehicleStreams& streams,
                                  Sinks sinks)
-    : starts_(settings.begin(), settings.end()),
-      streams_(streams),
+    : streams_(streams),
       sinks_(std::move(sinks)),
+      monitor_(settings, sinks_.report, static_cast<int>(streams.channels.known_forces.size())),
       early_(requiredOf(streams), kMostWaiting) {
-  for (const MonitorSettings& each : settings) each.validate();
-  if (settings.front().sample_period) start(*settings.front().sample_period);
+  if (settings.front().sample_period) start();
 }
 
 VehiclePipeline::VehiclePipeline(const MonitorSettings& settings, std::function<void(const MonitorReport&)> report)
     : VehiclePipeline({settings}, VehicleStreams(VehicleLayout::ofOneStrut(settings.tyre)),
                       sinksOf(std::move(report))) {}
 
-void VehiclePipeline::start(double period) {
-  for (VehicleMonitor::Start& start : starts_) start.settings.sample_period = period;
-  const MonitorSettings& settings = starts_.front().settings;
-  monitor_.emplace(starts_, sinks_.report, static_cast<int>(streams_.channels.known_forces.size()));
+void VehiclePipeline::start() {
+  const MonitorSettings& settings = monitor_.settings();
+  const double period = *settings.sample_period;
   grid_.emplace(
       period, streams_, settings.grid(period), [this](const VehicleSample& sample) { take(sample); },
-      [this](const VehicleReading& reading) { monitor_->addReading(grid_->vehicle(), reading); });
+      [this](const VehicleReading& reading) { monitor_.addReading(grid_->vehicle(), reading); });
   if (streams_.channels.road) tyre_.emplace(settings);
-}
-
-void VehiclePipeline::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& start,
-                                 std::size_t strut) {
-  requireUsable(effects);
-  if (monitor_) return monitor_->setEffects(strut, effects, start);
-  starts_[strut].effects = effects;
-  starts_[strut].strut = start;
-}
-
-void VehiclePipeline::setBaseline(const Baseline& baseline, std::size_t strut) {
-  for (const auto& [name, value] : {std::pair("baseline damping_to_mass", baseline.damping_to_mass),
-                                    std::pair("baseline stiffness_to_mass", baseline.stiffness_to_mass)})
-    if (value) requireAboveZero(name, *value, "");
-  starts_[strut].baseline = baseline;
-  if (monitor_) monitor_->setBaseline(strut, baseline);
-}
-
-Baseline VehiclePipeline::baseline(std::size_t strut) const {
-  const SuspensionMonitor* monitor = this->strut(strut);
-  return monitor != nullptr ? monitor->baseline() : starts_[strut].baseline.value_or(Baseline{});
-}
-
-void VehiclePipeline::reconfigure(const MonitorSettings& settings, std::size_t strut) {
-  MonitorSettings changed = settings;
-  changed.sample_period = period();
-  if (monitor_) monitor_->reconfigure(strut, changed);
-  starts_[strut].settings = changed;
 }
 
 void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values) {
   if (is_refused_) return;
-  if (monitor_ && early_.isEmpty()) {
+  if (grid_ && early_.isEmpty()) {
     grid_->push(sensor, stamp, values);
     return;
   }
@@ -116,7 +86,7 @@ void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values
   const std::size_t next =
       sensor + 1 < streams_.sensors.size() ? streams_.sensors[sensor + 1].stream : streams_.options.size();
   const EarlyReadings<std::vector<double>>::Reading reading{sensor, stamp, {values, values + (next - its.stream)}};
-  if (monitor_) {  // a sink has thrown while they were replayed
+  if (grid_) {  // a sink has thrown while they were replayed
     early_.append(reading);
   } else {
     const std::optional<double> period = early_.add(reading);
@@ -129,10 +99,10 @@ void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values
 // Settings that do not fit what was measured will not fit it at the next reading either: that is said once.
 void VehiclePipeline::startOnce(double period) {
   try {
-    start(period);
+    monitor_.begin(period);
+    start();
   } catch (const std::invalid_argument&) {
     is_refused_ = true;
-    monitor_.reset();
     grid_.reset();
     throw;
   }
@@ -151,10 +121,10 @@ void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
   road_ = sample.road;
   if (tyre_) {
-    tyre_->setPeriodFits(monitor_->strut(0)->input().period_fits);
+    tyre_->setPeriodFits(monitor_.strut(0)->input().period_fits);
     tyre_->add(sample.ofStrut(0), std::isnan(road_) ? std::nullopt : std::optional(road_));
   }
-  monitor_->addGridSample(sample);
+  monitor_.addGridSample(sample);
   if (sinks_.sample) sinks_.sample(sample);
 }
 
@@ -167,7 +137,7 @@ RejectCounts VehiclePipeline::rejected(std::size_t sensor) const {
 RejectCounts VehiclePipeline::rejected() const {
   RejectCounts all;
   for (std::size_t i = 0; i < streams_.sensors.size(); ++i) all += rejected(i);
-  for (std::size_t i = 0; i < starts_.size(); ++i)
+  for (std::size_t i = 0; i < monitor_.numStruts(); ++i)
     if (strut(i) != nullptr) all += strut(i)->rejected();
   return all;
 }

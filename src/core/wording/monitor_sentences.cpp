@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
@@ -79,20 +80,10 @@ std::string describe(const SensorReport& report) {
   return {};
 }
 
-namespace {
-
-std::optional<LogChange> changeOf(double value, double stddev, const std::optional<double>& healthy,
-                                  double healthy_stddev) {
-  if (!healthy || !(value > 0.0)) return std::nullopt;
-  return LogChange{std::log(value / *healthy), std::hypot(stddev / value, healthy_stddev / *healthy)};
-}
-
-}  // namespace
-
 std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
   const double horizon = found.horizon_samples * found.sample_period;
-  if (found.estimate.valid && found.isSteady()) return StrutOfDrive{found.estimate, "over the whole drive", horizon};
-  if (found.now.valid) return StrutOfDrive{found.now, "at the end of the drive", horizon};
+  if (found.estimate.valid() && found.isSteady()) return StrutOfDrive{found.estimate, "over the whole drive", horizon};
+  if (found.now.valid()) return StrutOfDrive{found.now, "at the end of the drive", horizon};
   return std::nullopt;
 }
 
@@ -104,12 +95,7 @@ Baseline nominalOf(const MonitorOptions& options) {
 }
 
 std::string describeChange(const StrutOfDrive& found, const Baseline& healthy, const MonitorOptions& options) {
-  const IdentifiedStrut& strut = found.strut;
-  const MeasuredChange measured{changeOf(strut.damping_to_mass, strut.damping_to_mass_stddev, healthy.damping_to_mass,
-                                         healthy.damping_to_mass_stddev),
-                                changeOf(strut.stiffness_to_mass, strut.stiffness_to_mass_stddev,
-                                         healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev)};
-  const StrutChange change = splitChange(measured, options.payload_range, 0.0);
+  const StrutChange change = splitChange(changeFrom(healthy, found.strut).change, options.payload_range, 0.0);
   const std::string text = describe(change, healthy);
   return text.empty() ? "" : "the strut, " + found.by + ": " + text;
 }

@@ -41,7 +41,7 @@ std::string describeRejected(const RejectCounts& rejected) {
   return text;
 }
 
-std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut& end) {
+std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& end) {
   return formatted(
       "the strut changes over the drive, or is no plain spring and damper: damping/mass %.4g +- %.2g 1/s and "
       "stiffness/mass %.4g +- %.2g 1/s^2 over all of it, %.4g +- %.2g and %.4g +- %.2g at its end",
@@ -73,10 +73,9 @@ std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& gr
 }
 
 std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing) {
-  const double most_filled = StreamResampler::kSlowest;  // samples made of one reading
-  if (!spacing || *spacing <= most_filled * sample_period) return {};
+  if (!spacing || *spacing <= StreamResampler::kSlowest * sample_period) return {};
   return formatted("sample_period = %.9g [s], must be at least %.6g: the stamps come every %.6g s", sample_period,
-                   *spacing / most_filled, *spacing);
+                   *spacing / StreamResampler::kSlowest, *spacing);
 }
 
 std::string describeReference(const Baseline& baseline, const std::string& file) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/compare.h"
@@ -26,6 +28,12 @@ std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& se
 /// @return the facts, without words (wording/failure_sentences.h). At least one entry: if nothing fails the only one
 /// says so (FailureView::kNone).
 std::vector<FailureRegion> findFailures(const ResidualViews& views, const LinearStrut& strut, double noise_floor);
+
+/// Samples that the mean of a bin is taken of.
+inline constexpr std::size_t kFewestInBin = 8;
+
+/// @return the range of nearly all values: single extremes would stretch an axis.
+std::pair<double, double> coveredRange(std::vector<double> values);
 
 /// @return of the free run, per segment and sample.
 Residuals residualsOf(const std::vector<ComparedSegment>& segments);

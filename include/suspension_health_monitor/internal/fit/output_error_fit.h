@@ -72,8 +72,7 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
 /// @return no fit if the model runs away.
 FitOutcome withoutFit(const Records& records, const StrutModel& model);
 
-/// Travel and travel rate at the start of every segment, the model's numbers being given: least squares of the free run
-/// against z'', each segment by itself (Ceres, derivatives by differences).
+/// Travel and travel rate at the start of every segment, the model's numbers being given: as fitOutputError() finds them.
 /// @param model  b1, b0 > 0.
 /// @return one state per segment of all records; nothing if the model runs away.
 std::optional<std::vector<StrutState>> estimateInitialStates(const Records& records, const StrutModel& model);

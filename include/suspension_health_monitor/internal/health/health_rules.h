@@ -28,11 +28,6 @@ struct MeasuredChange {
   double correlation = 0.0;                     ///< of the errors of x1 and x0 [-]
 };
 
-/// ln of the body's mass over that of the healthy vehicle, from the lightest to the heaviest that payload makes it.
-struct LoadRange {
-  double least, most;
-};
-
 /// The load that explains both changes best, and how well.
 struct LoadAlone {
   double log_mass = 0.0;
@@ -52,8 +47,10 @@ struct StrutChange {
 };
 
 /// @param both  two that are measured.
+/// @param range  of ln of the body's mass over that of the healthy vehicle, from the lightest to the heaviest that
+/// payload makes it.
 /// @return by weighted least squares over the range, with the joint covariance.
-LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range);
+LoadAlone explainByLoad(const MeasuredChange& both, const std::pair<double, double>& range);
 
 /// Tells payload from damage. b1 = beta/M and b0 = K/M: a mass that is m times as large (ln m = p) moves both by -p,
 /// damage moves one:  x1 = ln(b1/b1n) = d - p,  x0 = ln(b0/b0n) = s - p.

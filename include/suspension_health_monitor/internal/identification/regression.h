@@ -44,8 +44,9 @@ constexpr int count(SensorColumns columns) {
 /// that c_r = -b0 r has the column -m h^2. Cost per sample: O(1), no allocation.
 class SuspensionRegression {
  public:
+  /// @param effect_derivative  0: the effects' columns are I_0^2 f_j, as if f_j were an acceleration.
   explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
-                                SensorColumns sensors = SensorColumns::kNone);
+                                SensorColumns sensors = SensorColumns::kNone, int effect_derivative = 2);
 
   /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
@@ -61,41 +62,10 @@ class SuspensionRegression {
   LinearIntegralFilter sprung_;
   LinearIntegralFilter relative_;
   std::vector<LinearIntegralFilter> effects_;
+  int effect_derivative_;
   SensorColumns sensors_;
   double offset_gain_;  // h^2 [s^2]
   double drift_rows_;   // from the middle of the window to the newest reading
-  RegressionRow row_;
-};
-
-/// Position of the wheel's parameters in theta.
-enum TyreParameter : int {
-  kDampingToWheelMass = 0,    ///< beta/m [1/s]
-  kStiffnessToWheelMass = 1,  ///< K/m [1/s^2]
-  kTyreToWheelMass = 2,       ///< K0/m [1/s^2]
-  kNumTyreParameters = 3
-};
-
-/// Rows of the wheel's regression from three accelerations: Eq. (2), m w'' = beta (z' - w') + K (z - w) + K0 (mu - w),
-/// differentiated twice and under the twofold integral, as SuspensionRegression does with Eq. (1):
-///   I_2^2 w'' = -(beta/m) I_1^2 u - (K/m) I_0^2 u + (K0/m) I_0^2 (mu'' - w'') + e,   u = w'' - z'' [m/s^2].
-/// All three parameters are positive. A constant common to all sensors vanishes.
-/// Cost per sample: O(1), no allocation.
-class TyreRegression {
- public:
-  explicit TyreRegression(const IntegralFilterOptions& options);
-
-  /// Takes in the next sample of an uninterrupted uniform series.
-  /// @param road_acceleration  mu'' where the tyre touches the road, up positive [m/s^2].
-  /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills.
-  const RegressionRow* push(const CornerSample& sample, double road_acceleration);
-
-  /// Starts anew after a gap.
-  void reset();
-
- private:
-  LinearIntegralFilter wheel_;
-  LinearIntegralFilter strut_;  // of u
-  LinearIntegralFilter tyre_;   // of mu'' - w''
   RegressionRow row_;
 };
 

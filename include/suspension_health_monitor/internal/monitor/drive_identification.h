@@ -12,9 +12,6 @@ namespace suspension_health_monitor {
 /// @return what is wrong with the stamps for the sample period that was given, in words; nothing: they fit.
 std::optional<std::string> periodWarning(const SuspensionMonitor& monitor);
 
-/// @return what an estimator of the live monitor knows of the strut, for results.
-IdentifiedStrut toIdentified(const StrutEstimate& estimate);
-
 /// @param over_the_drive  the block estimate over all readings.  @param rejected  readings that were kept out.
 /// @return what is known of a strut at the end of a recorded drive.
 IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate& over_the_drive,

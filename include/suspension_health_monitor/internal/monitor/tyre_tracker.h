@@ -12,6 +12,37 @@
 
 namespace suspension_health_monitor {
 
+/// Position of the wheel's parameters in theta, the first two in place of the strut's.
+enum TyreParameter : int {
+  kDampingToWheelMass = 0,    ///< beta/m [1/s]
+  kStiffnessToWheelMass = 1,  ///< K/m [1/s^2]
+  kTyreToWheelMass = 2,       ///< K0/m [1/s^2]
+  kNumTyreParameters = 3
+};
+
+/// Rows of the wheel's regression from three accelerations: Eq. (2), m w'' = beta (z' - w') + K (z - w) + K0 (mu - w),
+/// differentiated twice and under the twofold integral, as SuspensionRegression does with Eq. (1):
+///   I_2^2 w'' = -(beta/m) I_1^2 u - (K/m) I_0^2 u + (K0/m) I_0^2 (mu'' - w'') + e,   u = w'' - z'' [m/s^2].
+/// The wheel is to the body what the body is to the wheel: these are its rows with both readings changed round, and a
+/// column more. All three parameters are positive. A constant common to all sensors vanishes.
+class TyreRegression {
+ public:
+  explicit TyreRegression(const IntegralFilterOptions& options) : rows_(options, 1, SensorColumns::kNone, 0) {}
+
+  /// Takes in the next sample of an uninterrupted uniform series.
+  /// @param road_acceleration  mu'' where the tyre touches the road, up positive [m/s^2].
+  /// @return as SuspensionRegression::push().
+  const RegressionRow* push(const CornerSample& sample, double road_acceleration) {
+    const double tyre = road_acceleration - sample.unsprung_acceleration;
+    return rows_.push({sample.stamp, sample.unsprung_acceleration, sample.sprung_acceleration}, &tyre);
+  }
+
+  void reset() { rows_.reset(); }
+
+ private:
+  SuspensionRegression rows_;
+};
+
 /// Wheel and tyre of one strut, followed through a drive by LS and LA side by side, with a third accelerometer where
 /// the tyre touches the road. Samples without a reading of it empty the filter, as does a gap: estimates hold
 /// meanwhile, marked as not valid. Cost per sample: O(1), no allocation.

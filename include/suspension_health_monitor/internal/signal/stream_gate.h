@@ -11,13 +11,33 @@
 
 namespace suspension_health_monitor {
 
-/// What a sensor's readings are like as a rule.
-struct UsualReadings {
-  double mean = 0.0, deviation = 0.0;  ///< deviation: mean distance from the mean
-  double finest_step = 0.0;            ///< smallest step other than 0 from one reading to the next
-  double span = 0.0;                   ///< highest less lowest
-  double repeated = 0.0;               ///< share of readings that equal the one before, in [0, 1]
-  bool known = false;                  ///< from enough readings
+/// What the readings of one sensor are like, the newest thousand of them. Cost per reading: O(1), no allocation.
+class ReadingStatistics {
+ public:
+  static constexpr int kStuck = 20;  ///< equal readings in a row; fewer occur where the resolution is coarse
+
+  /// @param is_extreme  it equals the highest or the lowest reading so far, which a range may have cut off.
+  void add(double reading, bool is_extreme);
+
+  /// @return how many of the last readings are of one value, without a break; as far as kStuck.
+  int equalInARow() const { return equal_in_a_row_; }
+
+  double mean() const { return mean_.mean(); }
+  double deviation() const { return deviation_.mean(); }  ///< mean distance from the mean
+  double finestStep() const { return finest_step_; }      ///< smallest step other than 0 from one reading to the next
+  double repeated() const { return repeated_.mean(); }    ///< share of readings that equal the one before, in [0, 1]
+  bool areUsual() const {
+    return std::min(mean_.weight(), repeated_.weight()) >= kFewestForUsual;
+  }  ///< they are enough
+
+ private:
+  static constexpr double kFewestForUsual = 100.0;
+
+  std::optional<double> last_;
+  int equal_in_a_row_ = 0;
+  double finest_step_ = 0.0;                    // other than 0
+  RunningMean repeated_{StreamClock::kMemory};  // 1 for a reading that equals the one before, both extremes left out
+  RunningMean mean_{StreamClock::kMemory}, deviation_{StreamClock::kMemory};
 };
 
 /// The upper or the lower end of what one sensor has read: do its readings stop there because its range does?
@@ -31,15 +51,12 @@ struct UsualReadings {
 /// Cost per reading: O(1), no allocation.
 class RangeEnd {
  public:
-  static constexpr int kStuck = 20;  ///< equal readings in a row; fewer occur where the resolution is coarse
-
   /// @param sign  1: the upper end, -1: the lower one.
   explicit RangeEnd(double sign) : sign_(sign) {}
 
   /// Takes in the next reading.
-  /// @param equal_in_a_row  readings of this value without a break, this one included.
-  /// @param usual  of the readings so far, this one included.
-  void add(double reading, int equal_in_a_row, const UsualReadings& usual);
+  /// @param all  the readings so far, this one included.  @param span  highest less lowest of those before it.
+  void add(double reading, const ReadingStatistics& all, double span);
 
   /// @return the farthest reading so far; none before the first one.
   const std::optional<double>& extreme() const { return extreme_; }
@@ -52,36 +69,13 @@ class RangeEnd {
   static constexpr int kAgain = 5;
 
   void count(double reading, double band);
-  void countFlatTops(double reading, int equal_in_a_row, double repeated);
+  void countFlatTops(double reading, const ReadingStatistics& all);
 
   double sign_;
   std::optional<double> extreme_, limit_;
   double at_ = 0.0, near_ = 0.0;  // readings at the extreme; within the band below
   int flat_tops_ = 0;             // counts up to kAgain
   bool in_flat_top_ = false;
-};
-
-/// What the readings of one sensor are like, the newest thousand of them. Cost per reading: O(1), no allocation.
-class ReadingStatistics {
- public:
-  /// @param is_extreme  it equals the highest or the lowest reading so far, which a range may have cut off.
-  void add(double reading, bool is_extreme);
-
-  /// @param span  highest less lowest of all readings.
-  UsualReadings usual(double span) const;
-
-  /// @return how many of the last readings are of one value, without a break; as far as RangeEnd::kStuck.
-  int equalInARow() const { return equal_in_a_row_; }
-
-  double mean() const { return mean_.mean(); }
-  double deviation() const { return deviation_.mean(); }  ///< mean distance from the mean
-
- private:
-  std::optional<double> last_;
-  int equal_in_a_row_ = 0;
-  double finest_step_ = 0.0;                    // other than 0
-  RunningMean repeated_{StreamClock::kMemory};  // 1 for a reading that equals the one before, both extremes left out
-  RunningMean mean_{StreamClock::kMemory}, deviation_{StreamClock::kMemory};
 };
 
 /// How large a sensor's readings usually are: their running median.
@@ -147,9 +141,9 @@ class StreamGate {
   /// Forgets the last stamp: the next reading may have any.
   void startNewSeries();
 
-  /// @return true if the last RangeEnd::kStuck readings were all the same: a sensor that is stuck, or a vehicle at rest
-  /// and a sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
-  bool isStill() const { return statistics_.equalInARow() == RangeEnd::kStuck; }
+  /// @return true if the last ReadingStatistics::kStuck readings were all the same: a sensor that is stuck, or a
+  /// vehicle at rest and a sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
+  bool isStill() const { return statistics_.equalInARow() == ReadingStatistics::kStuck; }
 
   /// @return the mean distance of the newest thousand readings from their mean [m/s^2].
   double deviation() const { return statistics_.deviation(); }

@@ -28,23 +28,15 @@ class VehicleMonitor {
   /// @param strut  its place.
   using Sink = std::function<void(std::size_t strut, const MonitorReport& report)>;
 
-  /// What a strut is to be begun with.
-  struct Start {
-    explicit Start(const MonitorSettings& its) : settings(its) {}
-
-    MonitorSettings settings;
-    std::vector<ActiveEffect> effects;
-    std::optional<LinearStrut> strut;  ///< that belongs to the effects
-    std::optional<Baseline> baseline;
-  };
-
-  /// @param starts  of each strut, with sample_period given, the same in all.
+  /// @param settings  by strut; sample_period is that of the first. Without it begin() has to come before the rest.
   /// @param sink  called with the report of every strut after every sample that gave one.
   /// @param num_forces  known forces in every sample.
   /// @throws std::invalid_argument  as SuspensionMonitor; without a strut, or with more than kMostStruts.
-  VehicleMonitor(std::vector<Start> starts, Sink sink, int num_forces = 0);
-  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0)
-      : VehicleMonitor(std::vector<Start>(settings.begin(), settings.end()), std::move(sink), num_forces) {}
+  VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces = 0);
+
+  /// @param period  sampling time of all struts [s].
+  /// @throws std::invalid_argument  likewise.
+  void begin(double period);
 
   /// Takes in one reading of one sensor on its own stamp.
   /// @param vehicle  that of the first reading counts.
@@ -56,10 +48,13 @@ class VehicleMonitor {
   /// The readings of all IMUs at the tops and wheels at one instant, then the sample: for sensors that are in step.
   void addSample(const VehicleSample& sample);
 
-  /// As SuspensionMonitor has them; what is set before there is a monitor waits for it.
+  /// As SuspensionMonitor has them; what is set before there is one waits for it.
   void setEffects(std::size_t strut, const std::vector<ActiveEffect>& effects,
                   const std::optional<LinearStrut>& start = {});
+  /// @throws std::invalid_argument  if a value of it is not above 0 and finite.
   void setBaseline(std::size_t strut, const Baseline& baseline);
+  /// @return what health is judged by, or will be; empty as long as nothing was given or learned.
+  Baseline baseline(std::size_t strut) const;
   void reconfigure(std::size_t strut, MonitorSettings settings);
 
   /// As SuspensionMonitor; it is lost while there is no monitor.
@@ -75,6 +70,7 @@ class VehicleMonitor {
   /// @return nullptr while the rows are not known.
   const SuspensionMonitor* strut(std::size_t i) const { return struts_.empty() ? nullptr : &struts_[i]; }
   std::size_t numStruts() const { return starts_.size(); }
+  const MonitorSettings& settings() const { return starts_.front().settings; }  ///< of the first strut
 
   /// @return true once the rows are known.
   bool isCoupled() const { return !struts_.empty(); }
@@ -93,6 +89,16 @@ class VehicleMonitor {
   StrutEstimate overTheDrive(std::size_t strut);
 
  private:
+  /// What a strut is to be begun with.
+  struct Start {
+    explicit Start(const MonitorSettings& its) : settings(its) {}
+
+    MonitorSettings settings;
+    std::vector<ActiveEffect> effects;
+    std::optional<LinearStrut> strut;  // that belongs to the effects
+    std::optional<Baseline> baseline;
+  };
+
   void learnRows();
   void fitRows();
   void beginStruts();
@@ -100,7 +106,7 @@ class VehicleMonitor {
   std::optional<LogChange> sharedByOthers(std::size_t strut) const;
   Eigen::Vector2d modelStddev(const TopEstimate& estimate) const;
 
-  Stamp period_;
+  Stamp period_{};  // 0 until it is known
   Sink sink_;
   std::vector<Start> starts_;  // by strut
   int num_forces_;

@@ -29,7 +29,7 @@ VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std:
 /// From the readings of a vehicle's sensors to reports by strut, the one way for a live robot, a bag, arrays and tests;
 /// one strut is a vehicle with one strut:
 /// reading -> VehicleGrid -> VehicleMonitor::addReading; sample -> TyreTracker, VehicleMonitor::addGridSample -> sinks.
-/// Without a sample_period the first readings wait until their stamps have told it; until then there is no monitor.
+/// Without a sample_period the first readings wait until their stamps have told it; until then nothing is monitored.
 /// Cost per reading: O(1) amortised; after the sample period is known no allocation and no lock.
 class VehiclePipeline {
  public:
@@ -63,32 +63,25 @@ class VehiclePipeline {
 
   /// As VehicleMonitor, of one strut.
   void setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& start = {},
-                  std::size_t strut = 0);
-
-  /// @throws std::invalid_argument  if a value of it is not above 0 and finite.
-  void setBaseline(const Baseline& baseline, std::size_t strut = 0);
-
-  /// @return what health is judged by, or will be; empty as long as nothing was given or learned.
-  Baseline baseline(std::size_t strut = 0) const;
-
-  void reconfigure(const MonitorSettings& settings, std::size_t strut = 0);
-
-  /// @return as VehicleMonitor::overTheDrive().
-  StrutEstimate overTheDrive(std::size_t strut = 0) {
-    return monitor_ ? monitor_->overTheDrive(strut) : StrutEstimate();
+                  std::size_t strut = 0) {
+    monitor_.setEffects(strut, effects, start);
   }
+  void setBaseline(const Baseline& baseline, std::size_t strut = 0) { monitor_.setBaseline(strut, baseline); }
+  Baseline baseline(std::size_t strut = 0) const { return monitor_.baseline(strut); }
+  void reconfigure(const MonitorSettings& settings, std::size_t strut = 0) { monitor_.reconfigure(strut, settings); }
+  StrutEstimate overTheDrive(std::size_t strut = 0) { return grid_ ? monitor_.overTheDrive(strut) : StrutEstimate(); }
 
   /// @return nullptr while the sample period is being measured; so with the next three.
-  VehicleMonitor* monitor() { return monitor_ ? &*monitor_ : nullptr; }
-  const VehicleMonitor* monitor() const { return monitor_ ? &*monitor_ : nullptr; }
+  VehicleMonitor* monitor() { return grid_ ? &monitor_ : nullptr; }
+  const VehicleMonitor* monitor() const { return grid_ ? &monitor_ : nullptr; }
   const VehicleGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
   const TyreTracker* tyre() const { return tyre_ ? &*tyre_ : nullptr; }  ///< nullptr without a road sensor, too
 
   /// @return nullptr also while the rows of a vehicle are not known.
-  const SuspensionMonitor* strut(std::size_t i = 0) const { return monitor_ ? monitor_->strut(i) : nullptr; }
+  const SuspensionMonitor* strut(std::size_t i = 0) const { return grid_ ? monitor_.strut(i) : nullptr; }
 
   /// @return T [s], once there is a monitor.
-  std::optional<double> period() const { return monitor_ ? starts_.front().settings.sample_period : std::nullopt; }
+  std::optional<double> period() const { return grid_ ? monitor_.settings().sample_period : std::nullopt; }
   Stamp newest() const { return newest_; }  ///< stamp of the newest sample; 0 before the first
 
   /// @return readings of a sensor, or of all, that were kept out so far, wherever it was noticed.
@@ -96,18 +89,17 @@ class VehiclePipeline {
   RejectCounts rejected() const;
 
  private:
-  void start(double period);
+  void start();
   void startOnce(double period);
   void replayEarly();
   void take(const VehicleSample& sample);
 
-  std::vector<VehicleMonitor::Start> starts_;  // by strut
   VehicleStreams streams_;
   Sinks sinks_;
+  VehicleMonitor monitor_;
   EarlyReadings<std::vector<double>> early_;  // by sensor
   bool is_refused_ = false;                   // the settings do not fit the sample period that was measured
-  std::optional<VehicleGrid> grid_;
-  std::optional<VehicleMonitor> monitor_;
+  std::optional<VehicleGrid> grid_;           // once the sample period is known
   std::optional<TyreTracker> tyre_;
   Stamp newest_{};
   double road_ = std::nan("");

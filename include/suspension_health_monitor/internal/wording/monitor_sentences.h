@@ -43,7 +43,7 @@ std::string describe(const CornerComparisonReport& report);
 
 /// What `identify` tells of a strut as a whole.
 struct StrutOfDrive {
-  IdentifiedStrut strut;
+  StrutEstimate strut;
   std::string by;        ///< what it was estimated by, in words
   double horizon = 0.0;  ///< of the integral filter [s]
 };

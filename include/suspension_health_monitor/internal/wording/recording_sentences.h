@@ -15,7 +15,7 @@ namespace suspension_health_monitor {
 /// What came of a recording, in words for people: of bags and of arrays.
 
 /// @return what a drive says whose strut at the end is not that of the whole.
-std::string describeUnsteady(const IdentifiedStrut& whole, const IdentifiedStrut& end);
+std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& end);
 
 /// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
 std::string describeRejected(const RejectCounts& rejected);
