@@ -87,7 +87,7 @@ void search(const po::variables_map& values) {
   if (file) file->commit(whole.dump(2) + '\n');
   if (model) model->commit(modelText(found, vehicle));
   const ImuBags& bags = asked.options.bags;
-  if (page) page->write(found, searching, changes, {fileNames(bags.paths), originOf(values, bags.allTopics())});
+  if (page) page->write(found, searching, whole, {fileNames(bags.paths), originOf(values, bags.allTopics())});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "csv_tables.h"
 #include "html_page.h"
+#include "json_of.h"
 #include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
@@ -47,20 +48,11 @@ struct HealthFiles {
 void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
   const StrutEstimate& estimate = moment.estimate;
   if (table.isOf(strut))
-    std::fprintf(table.beginLine(strut, moment.stamp), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n",
-                 nameOf(moment.level), boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(),
-                 estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,
-                 estimate.stiffness_to_mass_stddev, moment.offset);
+    std::fprintf(table.beginLine(strut, moment.time), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level),
+                 boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(), estimate.damping_to_mass,
+                 estimate.stiffness_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass_stddev,
+                 moment.offset);
   if (page) courses[strut].add({moment, judged_by});
-}
-
-json listOf(const std::vector<HealthMoment>& moments) {
-  json list = json::array();
-  for (const HealthMoment& moment : moments) {
-    list.push_back(toJson(moment));
-    list.back()["after"] = toSeconds(moment.elapsed);
-  }
-  return list;
 }
 
 json toJson(const HealthCourse& course) {
@@ -81,30 +73,28 @@ json toJson(const HealthCourse& course) {
   return {{"time", time}, {"damping", shortened(damping)}, {"stiffness", shortened(stiffness)}};
 }
 
-/// What the scripts of the page expect of a strut.
-json findingsOf(const RecordedMonitor& recorded, std::size_t strut, const std::string& reference,
-                const std::vector<RecordedMonitor::Recording>& recordings) {
+/// What the page has of a strut.
+/// @param result  as --json has it.
+json findingsOf(const RecordedMonitor& recorded, std::size_t strut, const HealthCourse& course,
+                const std::vector<RecordedMonitor::Recording>& recordings, json result) {
   const SuspensionMonitor& monitor = recorded.strut(strut);
   const HealthLog& log = recorded.log(strut);
   const MonitorSettings& settings = monitor.options();
   const double duration = toSeconds(log.elapsed());
-  const std::vector<std::string> names = namesOf(recordings);
   json begins = json::array();
   for (const auto& [name, from] : recordings) begins.push_back({{"name", name}, {"from", toSeconds(from)}});
-  return {{"strut", recorded.vehicle().names[strut]},
-          {"source", sourceOf(names, duration, monitor.period())},
-          {"horizon", monitor.horizonSamples() * monitor.period()},
-          {"judged_by", reference},
-          {"recordings", begins},
-          {"duration", duration},
-          {"seconds", secondsJson(log)},
-          {"events", listOf(log.events())},
-          {"end", toJson(log.latest())},
-          {"early_warnings", listOf(log.earlyWarnings())},
-          {"thresholds",
-           {{"damping", {settings.damping_warn, settings.damping_error}},
-            {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
-          {"estimates", estimatesJson(monitor)}};
+  result.update({{"strut", recorded.vehicle().names[strut]},
+                 {"source", sourceOf(namesOf(recordings), duration, monitor.period())},
+                 {"horizon", monitor.horizonSamples() * monitor.period()},
+                 {"judged_by", recorded.reference(strut)},
+                 {"recordings", begins},
+                 {"duration", duration},
+                 {"early_warnings", jsonOf(log.earlyWarnings())},
+                 {"thresholds",
+                  {{"damping", {settings.damping_warn, settings.damping_error}},
+                   {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
+                 {"course", toJson(course)}});
+  return result;
 }
 
 void watchBags(const po::variables_map& values) {
@@ -119,10 +109,9 @@ void watchBags(const po::variables_map& values) {
   const std::vector<RecordedMonitor::Recording> recordings = recorded.read();
   json whole = wholeJson(vehicle, recorded.coupling(), recorded.gaps()), struts = json::array();
   for (const std::size_t i : vehicle.asked) {
-    vehicle.resultsOf(i, whole).update(toJson(recorded.log(i), recorded.strut(i)));
-    if (!files.page) continue;
-    struts.push_back(findingsOf(recorded, i, recorded.reference(i), recordings));
-    struts.back()["course"] = toJson(files.courses[i]);
+    const json result = toJson(recorded.log(i), recorded.strut(i));
+    vehicle.resultsOf(i, whole).update(result);
+    if (files.page) struts.push_back(findingsOf(recorded, i, files.courses[i], recordings, result));
   }
   if (files.findings) files.findings->commit(whole.dump(2) + '\n');
   if (files.csv) files.csv->commit();

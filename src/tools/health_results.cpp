@@ -41,7 +41,7 @@ void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const s
   std::printf("judged by %s\n\n", reference.c_str());
   std::printf("%15s  %10s  %-5s  %s\n", "time [s]", "after [s]", "level", "reason");
   for (const HealthMoment& event : log.events())
-    std::printf("%15.2f  %10.2f  %-5s  %s\n", toSeconds(event.stamp), toSeconds(event.elapsed), nameOf(event.level),
+    std::printf("%15.2f  %10.2f  %-5s  %s\n", toSeconds(event.time), toSeconds(event.elapsed), nameOf(event.level),
                 event.message.c_str());
   std::printf("\nlevel    time [s]   share   events\n");
   const double covered = toSeconds(log.elapsed());
@@ -51,7 +51,7 @@ void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const s
                 covered > 0.0 ? 100.0 * seconds / covered : 0.0, log.count(level));
   }
   std::printf("early warnings %zu", log.earlyWarnings().size());
-  if (!log.earlyWarnings().empty()) std::printf(", the first at %.2f s", toSeconds(log.earlyWarnings().front().stamp));
+  if (!log.earlyWarnings().empty()) std::printf(", the first at %.2f s", toSeconds(log.earlyWarnings().front().time));
   const HealthMoment end = log.latest();
   std::printf("\n\nat the end %s: %s\n", nameOf(end.level), end.message.c_str());
   printBlocks(monitor.report().estimate, monitor.options().sprung_mass);
@@ -59,38 +59,20 @@ void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const s
   printRows("LA", monitor.report().la, monitor.options().sprung_mass);
 }
 
-json toJson(const HealthMoment& moment) {
-  return {{"time", toSeconds(moment.stamp)}, {"level", nameOf(moment.level)}, {"message", moment.message}};
-}
-
-json secondsJson(const HealthLog& log) {
-  json seconds;
-  for (const HealthLevel level : kHealthLevels) seconds[nameOf(level)] = toSeconds(log.duration(level));
-  return seconds;
-}
-
-json estimatesJson(const SuspensionMonitor& monitor) {
-  json estimates;
+json toJson(const HealthLog& log, const SuspensionMonitor& monitor) {
+  json result{{"events", jsonOf(log.events())},
+              {"end", jsonOf(log.latest())},
+              {"warn_events", log.count(HealthLevel::kWarn)},
+              {"error_events", log.count(HealthLevel::kError)},
+              {"early_warnings", log.earlyWarnings().size()}};
+  for (const HealthLevel level : kHealthLevels) result["seconds"][nameOf(level)] = toSeconds(log.duration(level));
   const auto add = [&](const char* name, const StrutEstimate& estimate) {
-    estimates[name] = toJson(toIdentified(estimate));
-    estimates[name].update(jsonOf(estimate));
+    result[name] = toJson(toIdentified(estimate));
+    result[name].update(jsonOf(estimate));
   };
   add("estimate", monitor.report().estimate);
   add("ls", monitor.report().ls);
   add("la", monitor.report().la);
-  return estimates;
-}
-
-json toJson(const HealthLog& log, const SuspensionMonitor& monitor) {
-  json result = estimatesJson(monitor);
-  json events = json::array();
-  for (const HealthMoment& event : log.events()) events.push_back(toJson(event));
-  result["seconds"] = secondsJson(log);
-  result["events"] = events;
-  result["end"] = toJson(log.latest());
-  result["warn_events"] = log.count(HealthLevel::kWarn);
-  result["error_events"] = log.count(HealthLevel::kError);
-  result["early_warnings"] = log.earlyWarnings().size();
   return result;
 }
 

@@ -38,23 +38,9 @@ struct ReportContent {
   const InVehicle* vehicle = nullptr;  ///< none: the strut was searched by itself
 };
 
-// The parts of the page:
-
 /// The drives over time: measured z'' and the residuals before and after, packed as 16-bit numbers, with the stretches
 /// that were held out and a window that is worth looking at first.
 nlohmann::json drivesJson(const ReportContent& content);
-
-/// What the page tells of every candidate, by name: law, units, what a workshop would find, force or reading.
-nlohmann::json effectsJson(const EffectLibrary& library);
-
-/// Parameters before and after, with their standard deviations.
-nlohmann::json parametersJson(const ReportContent& content);
-
-/// The force of every effect that was found, as it was seen and by its law.
-nlohmann::json forcesJson(const ReportContent& content);
-
-/// How to put the model to use: the text of its file, and what to type.
-nlohmann::json addingJson(const ReportContent& content);
 
 /// The pages of a search: of every strut the verdict, the error step by step, measured against predicted over time, the
 /// residual from all sides, the force that was missing, every candidate, and how to use the model. Recordings beyond an
@@ -68,10 +54,10 @@ class ReportPage {
 
   /// Compares what a search found with the drives, before and after, and writes the pages.
   /// @param options  of the search, with sample_period.
-  /// @param changes  by strut how it is against the healthy one, in words; empty: not known.
+  /// @param whole  what was found as --json has it.
   /// @throws InputError, TooLittleError  if even the model as it is cannot be compared.
   /// @throws std::runtime_error  naming the file that cannot be written.
-  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const std::vector<std::string>& changes,
+  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, nlohmann::json whole,
              const PageSource& source);
 
  private:

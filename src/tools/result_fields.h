@@ -5,6 +5,7 @@
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -28,11 +29,12 @@ BOOST_HANA_ADAPT_STRUCT(shm::MonitorReport, stamp, estimate, ls, la, comparison,
 BOOST_HANA_ADAPT_STRUCT(shm::InputStatus, samples, rows, gaps, mean_period, period_fits, unit_fits);
 BOOST_HANA_ADAPT_STRUCT(shm::Baseline, damping_to_mass, stiffness_to_mass, damping_to_mass_stddev,
                         stiffness_to_mass_stddev, damping_scatter, stiffness_scatter, friction, temperature, learned);
-BOOST_HANA_ADAPT_STRUCT(shm::HealthMoment, elapsed, level, message);
+BOOST_HANA_ADAPT_STRUCT(shm::HealthMoment, time, elapsed, level, message);
 
 BOOST_HANA_ADAPT_STRUCT(shm::IdentifiedStrut, damping_to_mass, stiffness_to_mass, damping_to_mass_stddev,
                         stiffness_to_mass_stddev, rows, explained, age, valid, reason);
 
+BOOST_HANA_ADAPT_STRUCT(shm::EffectDescription, name, law, kind, coefficients, shapes, finding, advice);
 BOOST_HANA_ADAPT_STRUCT(shm::ModelNumber, name, effect, symbol, unit, value);
 BOOST_HANA_ADAPT_STRUCT(shm::StrutModel, damping_to_mass, stiffness_to_mass);
 BOOST_HANA_ADAPT_STRUCT(shm::FittedModel, model, stddev, all_samples);

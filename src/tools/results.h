@@ -40,15 +40,6 @@ nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut)
 void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference);
 nlohmann::json toJson(const HealthLog& log, const SuspensionMonitor& monitor);
 
-/// @return time, level and message by name.
-nlohmann::json toJson(const HealthMoment& moment);
-
-/// @return the seconds by level.
-nlohmann::json secondsJson(const HealthLog& log);
-
-/// @return the block estimate, LS and LA at the end, by name.
-nlohmann::json estimatesJson(const SuspensionMonitor& monitor);
-
 /// What a search found: the verdict in a sentence, the ranked table, before and after.
 void printSearch(const Diagnosis& found);
 nlohmann::json toJson(const Diagnosis& found);
