@@ -4,13 +4,15 @@
 #include <ros/ros.h>
 #include <suspension_health_monitor/CouplingInUse.h>
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "corner_output.h"
 #include "message_pipeline.h"
+#include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "task_log.h"
@@ -42,6 +44,33 @@ class CouplingOutput {
   std::vector<std::string> struts_, forces_;
   ros::Publisher publisher_;
   std::optional<CouplingInUse> last_;
+};
+
+/// The four corners of a vehicle against each other: the latched topic corners/comparison and a task of /diagnostics.
+class CornerOutput {
+ public:
+  /// @param struts  the names of all struts.
+  /// @return nothing unless the four corners are among them.
+  static std::optional<CornerOutput> of(ros::NodeHandle& node, const std::vector<std::string>& struts);
+
+  /// Judges the corners and publishes the newest verdict that two judgements in a row agreed on.
+  /// @param pipeline  nullptr: none yet.
+  void publish(const MessagePipeline* pipeline);
+
+  /// The task "Corners".
+  void describe(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
+ private:
+  using Places = std::array<std::size_t, kNumCorners>;
+
+  CornerOutput(ros::NodeHandle& node, const Places& places);
+
+  CornerComparisonReport judge(const MessagePipeline* pipeline);
+
+  Places places_;  // of the corners among the struts
+  ros::Publisher publisher_;
+  Stamp newest_{};  // sample at the last judgement
+  CornerComparisonReport last_ = compareCorners({}), confirmed_ = last_;
 };
 
 /// What a live vehicle says as a whole: the tasks Coupling, Input and, with four corners, Corners of /diagnostics,
