@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "../tools/recorded_monitor.h"
-#include "../tools/recorded_search.h"
+#include "../tools/recorded_drives.h"
 #include "bags_call.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "asked_vehicle.h"
+#include "bag_options.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "json_of.h"
-#include "recorded_search.h"
+#include "recorded_drives.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
@@ -95,10 +95,8 @@ json findingsOf(const ReportContent& content) {
   double duration = 0.0;
   for (const ComparedSegment& segment : content.before.segments)
     duration += static_cast<double>(segment.size()) * content.period;
-  const std::string strut = content.vehicle ? content.vehicle->strut + " in " : "";
   json findings{{"search", toJson(content.found)},
-                {"source", strut + sourceOf(content.source.drive_names, duration, content.period)},
-                {"change", content.source.change},
+                {"source", sourceOf(content.source.drive_names, duration, content.period)},
                 {"effects", effectsJson(content.library)},
                 {"parameters", parametersJson(content)},
                 {"drives", drivesJson(content)},
@@ -110,21 +108,7 @@ json findingsOf(const ReportContent& content) {
   findings["origin"]["from"] = toSeconds(content.found.from);
   findings["origin"]["to"] = toSeconds(content.found.to);
   if (content.after != nullptr) findings["after"] = shortened(toJson(*content.after));
-  if (const InVehicle* vehicle = content.vehicle)
-    findings["vehicle"] = {
-        {"strut", vehicle->strut}, {"file", vehicle->file}, {"bars", vehicle->bars}, {"has_page", vehicle->has_page}};
   return findings;
-}
-
-/// The struts that bars tie one to.
-std::vector<std::string> partnersOf(std::size_t place, const VehicleCoupling& coupling,
-                                    const std::vector<std::string>& names) {
-  std::vector<std::string> partners;
-  for (const AntiRollBarFound& bar : coupling.bars) {
-    if (bar.first == place) partners.push_back(names[bar.second]);
-    if (bar.second == place) partners.push_back(names[bar.first]);
-  }
-  return partners;
 }
 
 }  // namespace
@@ -139,8 +123,8 @@ ReportPage::ReportPage(const std::string& folder, const AskedVehicle& vehicle) :
     struts_.try_emplace(i, (std::filesystem::path(folder) / vehicle.names[i]).string());
 }
 
-void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options,
-                            const std::string& change, PageSource source) {
+void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options, json& whole,
+                            const PageSource& source) {
   const Diagnosis& found = all.struts[place];
   const std::vector<Drive>& drives = all.drives[place];
   CompareOptions comparing;
@@ -158,26 +142,26 @@ void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, cons
     comparing.fit = false;
     after = compare(drives, comparing);
   }
-  source.change = change;
-  const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, all.coupling, vehicle_.names),
-                     page_.has_value()};
-  struts_.at(place).write(searchTemplate(),
-                          findingsOf({found, options.candidates, *options.sample_period, source, before,
-                                      after && *after ? &*after : nullptr, vehicle_.isStrutAlone() ? nullptr : &in}));
+  json findings = findingsOf(
+      {found, options.candidates, *options.sample_period, source, before, after && *after ? &*after : nullptr});
+  findings["change"] = vehicle_.resultsOf(place, whole).value("change", "");
+  if (!vehicle_.isStrutAlone())
+    findings["vehicle"] = {{"strut", vehicle_.names[place]},
+                           {"file", vehicle_.file},
+                           {"anti_roll_bars", whole["anti_roll_bars"]},
+                           {"has_page", page_.has_value()}};
+  struts_.at(place).write(searchTemplate(), findings);
 }
 
 void ReportPage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options, json whole,
                        const PageSource& source) {
-  const auto write_strut = [&](std::size_t place) {
-    writeStrut(place, found, options, vehicle_.resultsOf(place, whole).value("change", ""), source);
-  };
-  if (vehicle_.only) return write_strut(*vehicle_.only);
+  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, whole, source);
   double samples = 0.0;
   for (const Drive& drive : found.drives.front()) samples += static_cast<double>(drive.samples.size());
   const double period = *options.sample_period;
   json places = json::array();
   for (std::size_t i = 0; i < vehicle_.names.size(); ++i) {
-    if (found.struts[i]) write_strut(i);
+    if (found.struts[i]) writeStrut(i, found, options, whole, source);
     places.push_back({{"name", vehicle_.names[i]}});
     if (const auto& position = vehicle_.layout.struts[i].position) places.back()["position"] = *position;
   }

@@ -5,26 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "asked_vehicle.h"
+#include "bag_options.h"
 #include "html_page.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
-/// The vehicle of a strut that is not alone.
-struct InVehicle {
-  std::string strut;
-  std::string file;               ///< of --vehicle
-  std::vector<std::string> bars;  ///< struts that anti-roll bars tie it to
-  bool has_page = true;           ///< of its own, in the folder above that of the strut's
-};
-
 /// What a page is made from.
 struct PageSource {
   std::vector<std::string> drive_names;  ///< one per drive
   nlohmann::json origin;                 ///< as originOf()
-  std::string change = {};               ///< how the strut is against the healthy one, in words; empty: not known
 };
 
 /// All that the page of a search is made of.
@@ -33,9 +24,8 @@ struct ReportContent {
   const EffectLibrary& library;  ///< the candidates of the search
   double period;                 ///< of the samples [s]
   const PageSource& source;
-  const Comparison& before;            ///< the model as it is, fitted to all samples
-  const Comparison* after = nullptr;   ///< with the effects found; none if there are none
-  const InVehicle* vehicle = nullptr;  ///< none: the strut was searched by itself
+  const Comparison& before;  ///< the model as it is, fitted to all samples
+  const Comparison* after;   ///< with the effects found; none if there are none
 };
 
 /// The drives over time: measured z'' and the residuals before and after, packed as 16-bit numbers, with the stretches
@@ -61,8 +51,8 @@ class ReportPage {
              const PageSource& source);
 
  private:
-  void writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options,
-                  const std::string& change, PageSource source);
+  void writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options, nlohmann::json& whole,
+                  const PageSource& source);
 
   const AskedVehicle& vehicle_;
   std::optional<HtmlPage> page_;            // before those of the struts, whose folders are in its folder
