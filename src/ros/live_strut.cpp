@@ -76,8 +76,8 @@ void LiveStrut::begin(MessagePipeline& pipeline) const {
 }
 
 void LiveStrut::publishModel() {
-  reports_->model().change(monitor() != nullptr ? monitor()->effects() : model_.effects(), monitor(),
-                           host_.frameOf(place_));
+  reports_->changeModel(monitor() != nullptr ? monitor()->effects() : model_.effects(), monitor(),
+                        host_.frameOf(place_));
 }
 
 void LiveStrut::publish(const MonitorReport& report) {
