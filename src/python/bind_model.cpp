@@ -60,10 +60,10 @@ void bindModel(py::module& module) {
       py::arg("settings"), py::arg("library"), "The StrutModel that settings are, by their full names.");
 
   ResultClass<EffectLibrary>(module, "EffectLibrary", "What may be missing from a model: names, laws and findings.")
-      .add("effects", &describeEffects)
+      .add("effects", &EffectLibrary::describe)
       .def(py::init(&builtInEffects), "The catalogue.");
-  ResultClass<EffectDescription>(module, "Effect",
-                                 "A physical effect that the linear strut lacks, or a fault of a reading.");
+  ResultClass<EffectLibrary::Description>(module, "Effect",
+                                          "A physical effect that the linear strut lacks, or a fault of a reading.");
 }
 
 }  // namespace suspension_health_monitor

@@ -12,7 +12,6 @@
 
 #include "shell_options.h"
 #include "suspension_health_monitor/drive.h"
-#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 

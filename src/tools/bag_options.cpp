@@ -3,6 +3,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
@@ -16,6 +17,35 @@ namespace suspension_health_monitor {
 namespace po = boost::program_options;
 
 namespace {
+
+/// @return the static transforms (/tf_static) of all bags.
+/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
+std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths) {
+  constexpr const char* kTopic = "/tf_static";
+  const auto transforms = std::make_shared<tf2::BufferCore>();
+  ChunkContents contents;
+  tf2_msgs::TFMessage tree;
+  for (const std::string& path : paths) {
+    BagFile file(path);
+    const std::vector<std::uint32_t> connections = connectionsOf<tf2_msgs::TFMessage>(file, kTopic);
+    if (connections.empty())
+      throw InputError(path + ": no topic " + kTopic + ", needed since target_frame or the frame of a strut is set");
+    const auto is_wanted = [&](std::uint32_t connection) {
+      return std::find(connections.begin(), connections.end(), connection) != connections.end();
+    };
+    for (const BagChunk& chunk : file.chunks()) {
+      if (std::none_of(chunk.connections.begin(), chunk.connections.end(), is_wanted)) continue;
+      file.read(chunk, contents);
+      for (const BagMessage& message : contents.messages) {
+        if (!is_wanted(message.connection)) continue;
+        decode(file, message, std::string(" on ") + kTopic, tree);
+        for (const geometry_msgs::TransformStamped& transform : tree.transforms)
+          transforms->setTransform(transform, path, true);
+      }
+    }
+  }
+  return transforms;
+}
 
 /// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them.
 ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
@@ -85,33 +115,6 @@ void addBagOptions(po::options_description& description) {
   add(kVehicle, po::value<std::string>(),
       "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
   add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
-}
-
-std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths) {
-  constexpr const char* kTopic = "/tf_static";
-  const auto transforms = std::make_shared<tf2::BufferCore>();
-  ChunkContents contents;
-  tf2_msgs::TFMessage tree;
-  for (const std::string& path : paths) {
-    BagFile file(path);
-    const std::vector<std::uint32_t> connections = connectionsOf<tf2_msgs::TFMessage>(file, kTopic);
-    if (connections.empty())
-      throw InputError(path + ": no topic " + kTopic + ", needed since target_frame or the frame of a strut is set");
-    const auto is_wanted = [&](std::uint32_t connection) {
-      return std::find(connections.begin(), connections.end(), connection) != connections.end();
-    };
-    for (const BagChunk& chunk : file.chunks()) {
-      if (std::none_of(chunk.connections.begin(), chunk.connections.end(), is_wanted)) continue;
-      file.read(chunk, contents);
-      for (const BagMessage& message : contents.messages) {
-        if (!is_wanted(message.connection)) continue;
-        decode(file, message, std::string(" on ") + kTopic, tree);
-        for (const geometry_msgs::TransformStamped& transform : tree.transforms)
-          transforms->setTransform(transform, path, true);
-      }
-    }
-  }
-  return transforms;
 }
 
 AskedVehicle readVehicle(const po::variables_map& values) {

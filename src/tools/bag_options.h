@@ -1,7 +1,6 @@
 #pragma once
 
 #include <boost/program_options.hpp>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -69,10 +68,6 @@ void addBagOptions(boost::program_options::options_description& description);
 /// @return how many processor cores may be used.
 /// @throws std::invalid_argument  as command.h.
 int threadsOf(const boost::program_options::variables_map& values);
-
-/// @return the static transforms (/tf_static) of all bags.
-/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
-std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
 
 /// @return the mean spacing of the stamps at the beginning of the bags, of the slowest topic that is needed [s].
 /// @throws InputError  as readTopics(), or it is no sample_period.  @throws TooLittleError  if there are too few

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "bag_options.h"

@@ -83,27 +83,17 @@ void addNumbers(const StrutModel& model, json& into) {
 json toJson(const Diagnosis& found) {
   json ranking = json::array();
   for (const RankedModel& ranked : found.ranking) {
-    json row{{"effects", ranked.effects},
-             {"held_out_rmse", ranked.held_out_rmse},
-             {"error_removed_percent", ranked.error_removed_percent},
-             {"significant", ranked.significant},
-             {"fitted", ranked.fitted}};
+    json row = jsonOf(ranked);
+    row.erase("model");  // its numbers follow by name
     if (ranked.failure != FitFailure::kNone) row["failure"] = reasonOf(ranked.failure);
     addNumbers(ranked.model, row);
     ranking.push_back(row);
   }
-  json whole{{"verdict", nameOf(found.verdict)},
-             {"base",
-              {{"held_out_rmse", found.base.held_out_rmse},
-               {"fit_percent", found.base_fit_percent},
-               {"parameters", jsonOf(found.base.model)}}},
-             {"noise_floor", found.noise_floor},
-             {"structured_share", found.structured_share},
-             {"surface_share", found.surface_share},
-             {"suggested_drive", found.suggested_drive},
-             {"ranking", ranking},
-             {"selected", found.selected},
-             {"indistinguishable", found.indistinguishable}};
+  json whole = jsonOf(found);
+  whole["ranking"] = ranking;
+  whole["base"] = {{"held_out_rmse", found.base.held_out_rmse},
+                   {"fit_percent", found.base_fit_percent},
+                   {"parameters", jsonOf(found.base.model)}};
   if (!found.remainder.empty()) whole["remainder"] = found.remainder;
   if (found.extended) {
     whole["explained_share"] = found.explained_share;

@@ -4,29 +4,28 @@
 
 #include "bag_options.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 /// "gap [m], width [m]"
-std::string withUnits(const std::vector<EffectDescription::NameAndUnit>& numbers) {
+std::string withUnits(const std::vector<EffectLibrary::Description::NameAndUnit>& numbers) {
   std::vector<std::string> all;
   for (const auto& [name, unit] : numbers) all.push_back(name + " [" + unit + "]");
   return join(all);
 }
 
 /// @return the unit of the one coefficient, or of each.
-std::string unitOf(const EffectDescription& effect) {
+std::string unitOf(const EffectLibrary::Description& effect) {
   return effect.coefficients.size() == 1 ? effect.coefficients.front().second : withUnits(effect.coefficients);
 }
 
-void printMarkdown(const std::vector<EffectDescription>& effects) {
+void printMarkdown(const std::vector<EffectLibrary::Description>& effects) {
   std::printf(
       "| name | law | unit of c | shape | what a workshop would find | design or wear, and what to check |\n"
       "|---|---|---|---|---|---|\n");
-  for (const EffectDescription& effect : effects)
+  for (const EffectLibrary::Description& effect : effects)
     std::printf("| `%s` | %s | %s | %s | %s | %s |\n", effect.name.c_str(),
                 boost::replace_all_copy(effect.law, "|", "\\|").c_str(), unitOf(effect).c_str(),
                 withUnits(effect.shapes).c_str(), effect.finding.c_str(), effect.advice.c_str());
@@ -50,10 +49,10 @@ void printWrapped(const std::string& text) {
   finish();
 }
 
-void printForTerminal(const std::vector<EffectDescription>& effects) {
+void printForTerminal(const std::vector<EffectLibrary::Description>& effects) {
   std::printf("name\n%slaw; [unit] of c; shape\n%swhat a workshop would find\n%sdesign or wear, and what to check\n",
               kIndent, kIndent, kIndent);
-  for (const EffectDescription& effect : effects) {
+  for (const EffectLibrary::Description& effect : effects) {
     const std::string unit = effect.coefficients.size() == 1 ? '[' + unitOf(effect) + ']' : unitOf(effect);
     std::printf("\n%s\n%s%s\n", effect.name.c_str(), kIndent,
                 join({effect.law, unit, withUnits(effect.shapes)}, "; ").c_str());
@@ -70,7 +69,7 @@ void effects(const Arguments& arguments) {
   description.add_options()("markdown", "as the table of doc/effects.md");
   const auto values = parse(arguments, "effects [--effects-file FILE] [--markdown]", description);
   if (!values) return;
-  const std::vector<EffectDescription> all = describeEffects(readEffects(*values));
+  const std::vector<EffectLibrary::Description> all = readEffects(*values).describe();
   values->count("markdown") != 0 ? printMarkdown(all) : printForTerminal(all);
 }
 

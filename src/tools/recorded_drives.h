@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "strut_files.h"
+#include "bag_options.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"

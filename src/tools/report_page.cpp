@@ -8,7 +8,6 @@
 #include "recorded_drives.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
 
@@ -87,7 +86,7 @@ json forcesJson(const ReportContent& content) {
 /// What the page tells of every candidate, by name.
 json effectsJson(const EffectLibrary& library) {
   json effects;
-  for (const EffectDescription& effect : describeEffects(library)) effects[effect.name] = jsonOf(effect);
+  for (const EffectLibrary::Description& effect : library.describe()) effects[effect.name] = jsonOf(effect);
   return effects;
 }
 

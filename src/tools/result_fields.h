@@ -5,7 +5,6 @@
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -31,15 +30,19 @@ BOOST_HANA_ADAPT_STRUCT(shm::Baseline, damping_to_mass, stiffness_to_mass, dampi
                         stiffness_to_mass_stddev, damping_scatter, stiffness_scatter, friction, temperature, learned);
 BOOST_HANA_ADAPT_STRUCT(shm::HealthMoment, time, elapsed, level, message);
 
+BOOST_HANA_ADAPT_STRUCT(shm::IdentifyResult, samples, rows, gaps, clock_jumps, sample_period, horizon_samples,
+                        warnings);
 BOOST_HANA_ADAPT_STRUCT(shm::IdentifiedStrut, damping_to_mass, stiffness_to_mass, damping_to_mass_stddev,
                         stiffness_to_mass_stddev, rows, explained, age, valid, reason);
 
-BOOST_HANA_ADAPT_STRUCT(shm::EffectDescription, name, law, kind, coefficients, shapes, finding, advice);
+BOOST_HANA_ADAPT_STRUCT(shm::EffectLibrary::Description, name, law, kind, coefficients, shapes, finding, advice);
 BOOST_HANA_ADAPT_STRUCT(shm::ModelNumber, name, effect, symbol, unit, value);
 BOOST_HANA_ADAPT_STRUCT(shm::StrutModel, damping_to_mass, stiffness_to_mass);
 BOOST_HANA_ADAPT_STRUCT(shm::FittedModel, model, stddev, all_samples);
 BOOST_HANA_ADAPT_STRUCT(shm::RankedModel, effects, model, fitted, held_out_rmse, error_removed_percent, significance,
                         significant);
+BOOST_HANA_ADAPT_STRUCT(shm::Diagnosis, verdict, noise_floor, structured_share, surface_share, suggested_drive,
+                        selected, indistinguishable);
 
 BOOST_HANA_ADAPT_STRUCT(shm::ResidualBin, from, to, mean, standard_error, rms, count);
 BOOST_HANA_ADAPT_STRUCT(shm::TimeBin, from, to, mean, standard_error, rms, count, drive, damping_error,

@@ -111,16 +111,10 @@ json toJson(const IdentifiedStrut& estimate) {
 }
 
 json toJson(const IdentifyResult& found, const std::string& change) {
-  json result{{"samples", found.samples},
-              {"rows", found.rows},
-              {"gaps", found.gaps},
-              {"clock_jumps", found.clock_jumps},
-              {"sample_period", found.sample_period},
-              {"horizon_samples", found.horizon_samples},
-              {"warnings", found.warnings},
-              {"estimate", toJson(found.estimate)},
-              {"ls", toJson(found.ls)},
-              {"la", toJson(found.la)}};
+  json result = jsonOf(found);
+  result["estimate"] = toJson(found.estimate);
+  result["ls"] = toJson(found.ls);
+  result["la"] = toJson(found.la);
   result["iv"] = result["estimate"];  // until the next version
   if (!change.empty()) result["change"] = change;
   return result;

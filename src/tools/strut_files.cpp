@@ -100,7 +100,7 @@ OptionMap othersOf(OptionMap given) {
 std::vector<std::optional<Baseline>> readHealthyStruts(const std::string& path, const AskedVehicle& vehicle) {
   if (vehicle.isStrutAlone()) return {readHealthy(path)};
   const OptionMap settings = readYaml(path);
-  if (!areSettings(settings)) return readBaselines(path, vehicle);
+  if (!areSettings(settings)) return readByStrut(path, vehicle, takeBaseline);
   std::vector<std::optional<Baseline>> baselines;
   prefixed(path + ": ", [&] {
     for (const PipelineOptions& strut : VehicleOptions::fromValues(vehicle.layout, settings).struts)
@@ -121,10 +121,6 @@ KnownModels readModels(const boost::program_options::variables_map& values, cons
     refuseUnknown(settings, {});
     return model;
   });
-}
-
-std::vector<std::optional<Baseline>> readBaselines(const std::string& path, const AskedVehicle& vehicle) {
-  return readByStrut(path, vehicle, takeBaseline);
 }
 
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {

@@ -21,9 +21,6 @@ namespace suspension_health_monitor {
 KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
                        const EffectLibrary& library);
 
-/// Reads a file of healthy struts, likewise.
-std::vector<std::optional<Baseline>> readBaselines(const std::string& path, const AskedVehicle& vehicle);
-
 /// @return why strutOf() cannot be what health is judged by, in words; empty: it can.
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options);
 

@@ -31,18 +31,18 @@ std::vector<ModelNumber> numbersOf(const StrutModel& model) {
   return numbers;
 }
 
-std::vector<EffectDescription> describeEffects(const EffectLibrary& library) {
-  std::vector<EffectDescription> all;
-  const auto add = [&](const auto& effect, const char* kind) -> EffectDescription& {
-    return all.emplace_back(EffectDescription{effect.name, effect.law, kind, effect.finding, effect.advice, {}, {}});
+std::vector<EffectLibrary::Description> EffectLibrary::describe() const {
+  std::vector<Description> all;
+  const auto add = [&](const auto& effect, const char* kind) -> Description& {
+    return all.emplace_back(Description{effect.name, effect.law, kind, effect.finding, effect.advice, {}, {}});
   };
-  for (const ForceEffect& effect : library.forces) {
-    EffectDescription& its = add(effect, "force");
+  for (const ForceEffect& effect : forces) {
+    Description& its = add(effect, "force");
     its.coefficients.emplace_back("c", effect.unit);
     for (const ShapeParameter& shape : effect.shapes) its.shapes.emplace_back(shape.name, shape.unit);
   }
-  for (const MeasurementEffect& effect : library.readings) {
-    EffectDescription& its = add(effect, "reading");
+  for (const MeasurementEffect& effect : readings) {
+    Description& its = add(effect, "reading");
     for (const MeasurementEffect::Coefficient& c : effect.coefficients) its.coefficients.emplace_back(c.name, c.unit);
   }
   return all;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/effects.h"
@@ -32,19 +31,6 @@ namespace suspension_health_monitor {
 /// mistake, counted from 1), not a plain formula, or not finite at rest or in motion; a name that a built-in effect, a
 /// variable or a function has; a missing, unknown or wrong setting.
 std::vector<ForceEffect> takeUserEffects(OptionMap& values);
-
-/// An effect as tables list it.
-struct EffectDescription {
-  using NameAndUnit = std::pair<std::string, std::string>;
-
-  std::string name, law;
-  std::string kind;  ///< force or reading
-  std::string finding, advice;
-  std::vector<NameAndUnit> coefficients, shapes;
-};
-
-/// @return the forces, then the faults of a reading.
-std::vector<EffectDescription> describeEffects(const EffectLibrary& library);
 
 /// The search tries every combination of starting values of an effect's shapes.
 inline constexpr std::size_t kMostUserShapes = 3;
