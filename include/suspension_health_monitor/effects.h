@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -120,8 +121,21 @@ const std::vector<MeasurementEffect>& measurementEffects();
 
 /// What may be missing from a model, and what one may be made of: the catalogue's records and the user's own laws.
 struct EffectLibrary {
+  /// An effect as tables list it.
+  struct Description {
+    using NameAndUnit = std::pair<std::string, std::string>;
+
+    std::string name, law;
+    std::string kind;  ///< force, or reading: a fault of the measurement
+    std::string finding, advice;
+    std::vector<NameAndUnit> coefficients, shapes;
+  };
+
   std::vector<ForceEffect> forces;
   std::vector<MeasurementEffect> readings;
+
+  /// @return the forces, then the faults of the measurement.
+  std::vector<Description> describe() const;
 };
 
 /// @return the whole catalogue.

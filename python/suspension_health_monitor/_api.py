@@ -9,7 +9,7 @@ from ._monitors import StrutMonitor, VehicleMonitor
 from ._plain import to_dict
 from ._progress import callback
 from ._recording import Recording, is_path, to_source
-from ._settings import array_keywords, files, simulator_keywords
+from ._settings import array_keywords, assignments, files, simulator_keywords
 from ._types import Model, Option, Path, Progress
 
 __all__ = ["Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
@@ -188,10 +188,10 @@ class _Call:
 
     def of_bags(self, name, *more, settings=(), **flags):
         paths = [f"./{path}" if path.startswith("-") else path for path in self._source]
-        assignments = [*self._keywords.assignments, *(f"{name}={value}" for name, value in dict(settings).items())]
+        given = assignments(self._keywords) + assignments(dict(settings))
         with callback(self._progress, self._name) as told:
             found = getattr(files(), name)(paths + _flags(**self._of_bags, config=self._config, **flags)
-                                           + [f"--set={each}" for each in assignments], *more, told)
+                                           + [f"--set={each}" for each in given], *more, told)
         return found if self.is_of_vehicle else found[""]
 
     def of_arrays(self, function, *more):

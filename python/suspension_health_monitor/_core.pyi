@@ -114,6 +114,7 @@ class DryFriction:
     stddev: float  # [m/s^2]
 
 class Effect:
+    advice: str  # whether that is design or wear, and what to check
     coefficients: List[Tuple[str, str]]  # (name, unit) of each
     finding: str  # what a workshop would find
     kind: str  # force, or reading: a fault of the body's IMU

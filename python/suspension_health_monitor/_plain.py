@@ -5,7 +5,7 @@ from typing import Any
 
 from . import _core
 
-_NO_RESULTS = (_core.Keywords, _core.Readings, _core.EffectLibrary, _core.StrutMonitor, _core.VehicleMonitor)
+_NO_RESULTS = (_core.UnusableList, _core.Readings, _core.EffectLibrary, _core.StrutMonitor, _core.VehicleMonitor)
 _RESULTS = {name: each for name, each in vars(_core).items() if isinstance(each, type) and each not in _NO_RESULTS}
 
 

@@ -52,13 +52,23 @@ def array_keywords(options, config, arguments):
     if config is None:
         return keywords
     settings = files().read_settings(os.fspath(config))
-    return keywords.with_defaults(_core.monitor_keywords(settings, []).without_messages())
+    return {**_core.without_messages(_core.monitor_keywords(settings, [])), **keywords}
+
+
+def assignments(keywords):
+    """NAME=VALUE each, as --set takes them."""
+    def text(value):
+        if isinstance(value, bool):
+            return str(value).lower()
+        return f"{value:.17g}" if isinstance(value, float) else str(value)
+    return [f"{name}={text(value)}" for name, value in keywords.items()]
 
 
 def simulator_keywords(options, of_vehicle):
     config = options.pop("config", None)
+    settings = {} if config is None else files().read_settings(os.fspath(config))
+    if of_vehicle:  # who makes the vehicle knows its options
+        return {**settings, **flattened(options)}
     arguments = ["output", "effect", "effects_file", "progress", "config"]
-    keywords = _core.simulator_keywords(flattened(options), of_vehicle, arguments)
-    if config is None:
-        return keywords
-    return keywords.with_defaults(_core.simulator_keywords(files().read_settings(os.fspath(config)), of_vehicle, []))
+    keywords = _core.simulator_keywords(flattened(options), arguments)
+    return {**_core.simulator_keywords(settings, []), **keywords}

@@ -18,9 +18,9 @@ namespace py = pybind11;
 
 namespace {
 
-std::string writeSimulation(const std::string& path, const Keywords& keywords, LongWork& work) {
+std::string writeSimulation(const std::string& path, const OptionMap& keywords, LongWork& work) {
   const ToolsWork tools(work, 1);
-  writeBag(makeSimulatedDrive(keywords.values), path);
+  writeBag(makeSimulatedDrive(keywords), path);
   return path;
 }
 
@@ -42,7 +42,7 @@ PYBIND11_MODULE(_bags, module) {
   module.doc() = "Compiled part of suspension_health_monitor: bags and files.";
   pybind11::module::import("suspension_health_monitor._core");  // which has the classes of the results
   bindBags(module);
-  defCommand<std::string, Keywords>(module, "simulate", &writeSimulation, "path", "keywords");
+  defCommand<std::string, OptionMap>(module, "simulate", &writeSimulation, "path", "keywords");
   module.def("read_effects", &readEffectsFile, py::arg("path"));
   module.def("read_model", &readModelFile, py::arg("path"), py::arg("library"));
   module.def("read_baseline", &readHealthy, py::arg("path"));

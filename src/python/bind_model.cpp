@@ -3,35 +3,9 @@
 
 namespace suspension_health_monitor {
 
-struct EffectDescription {
-  std::string name, law, kind, finding;
-  std::vector<std::pair<std::string, std::string>> coefficients, shapes;  ///< name and unit
-};
-
-}  // namespace suspension_health_monitor
-
-BOOST_HANA_ADAPT_STRUCT(shm::EffectDescription, name, law, kind, coefficients, shapes, finding);
-
-namespace suspension_health_monitor {
-
 namespace py = pybind11;
 
 namespace {
-
-std::vector<EffectDescription> describeEffects(const EffectLibrary& library) {
-  std::vector<EffectDescription> all;
-  for (const ForceEffect& effect : library.forces) {
-    EffectDescription& row =
-        all.emplace_back(EffectDescription{effect.name, effect.law, "force", effect.finding, {{"c", effect.unit}}, {}});
-    for (const ShapeParameter& shape : effect.shapes) row.shapes.emplace_back(shape.name, shape.unit);
-  }
-  for (const MeasurementEffect& effect : library.readings) {
-    EffectDescription& row =
-        all.emplace_back(EffectDescription{effect.name, effect.law, "reading", effect.finding, {}, {}});
-    for (const MeasurementEffect::Coefficient& c : effect.coefficients) row.coefficients.emplace_back(c.name, c.unit);
-  }
-  return all;
-}
 
 /// Adds each value by the name of its shape or coefficient.
 template <class Named>
@@ -86,10 +60,10 @@ void bindModel(py::module& module) {
       py::arg("settings"), py::arg("library"), "The StrutModel that settings are, by their full names.");
 
   ResultClass<EffectLibrary>(module, "EffectLibrary", "What may be missing from a model: names, laws and findings.")
-      .add("effects", &describeEffects)
+      .add("effects", &EffectLibrary::describe)
       .def(py::init(&builtInEffects), "The catalogue.");
-  ResultClass<EffectDescription>(module, "Effect",
-                                 "A physical effect that the linear strut lacks, or a fault of a reading.");
+  ResultClass<EffectLibrary::Description>(module, "Effect",
+                                          "A physical effect that the linear strut lacks, or a fault of a reading.");
 }
 
 }  // namespace suspension_health_monitor

@@ -108,9 +108,9 @@ using LockedVehicle = Locked<ArrayVehicle>;
 
 void bindMonitors(py::module& module) {
   py::class_<LockedMonitor>(module, "StrutMonitor")
-      .def(py::init([](const Keywords& keywords, bool tyre, const py::object& on_report, int every) {
+      .def(py::init([](const OptionMap& keywords, bool tyre, const py::object& on_report, int every) {
              if (every < 1) throw std::invalid_argument("every = " + std::to_string(every) + ", must be 1 or more");
-             MonitorOptions options = keywords.forArrays().monitor;
+             MonitorOptions options = arrayOptions(keywords).monitor;
              options.tyre = tyre;
              return std::make_unique<LockedMonitor>(options, sinkFor(on_report, every));
            }),
@@ -137,8 +137,8 @@ void bindMonitors(py::module& module) {
       .def_property_readonly("sample_period", asking(&StrutMonitor::samplePeriod));
   py::class_<LockedVehicle>(module, "VehicleMonitor")
       .def(py::init([](const std::vector<std::pair<std::string, std::optional<Position>>>& struts,
-                       const Keywords& keywords) {
-             const MonitorOptions options = keywords.forArrays().monitor;
+                       const OptionMap& keywords) {
+             const MonitorOptions options = arrayOptions(keywords).monitor;
              if (!options.sample_period)
                throw std::invalid_argument("sample_period is missing, must be given: all sensors share it");
              return std::make_unique<LockedVehicle>(struts, options);

@@ -79,8 +79,7 @@ void bindDiagnosis(py::module& module) {
 void bindResults(py::module& module) {
   ResultClass<Identification>(module, "Identification", "A strut identified from recorded drives.")
       .add("iv", &Identification::estimate);  // until the next version
-  ResultClass<HealthMoment>(module, "HealthMoment", "What a monitor said at one time.")
-      .add("time", &HealthMoment::stamp);
+  ResultClass<HealthMoment>(module, "HealthMoment", "What a monitor said at one time.");
   ResultClass<HealthSummary>(module, "Health", "What the monitor would have said over recorded drives, and when.");
   bindViews(module);
   bindComparison(module);

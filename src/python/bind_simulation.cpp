@@ -37,9 +37,9 @@ void refusePlaying(const OptionMap& values) {
       throw std::invalid_argument(std::string(field.name) + " is an option of the nodelet, must not come with arrays");
 }
 
-Simulation simulateArrays(const Keywords& keywords, const EffectLibrary& library, LongWork& work) {
-  refusePlaying(keywords.values);
-  const SimulatorOptions options = SimulatorOptions::fromValues(keywords.values, library);
+Simulation simulateArrays(const OptionMap& keywords, const EffectLibrary& library, LongWork& work) {
+  refusePlaying(keywords);
+  const SimulatorOptions options = SimulatorOptions::fromValues(keywords, library);
   DriveSimulator simulator(options.drive);
   Simulation made;
   const double start = options.playing.start_time, gravity = options.publishing.gravity;
@@ -92,12 +92,11 @@ void bindSimulation(py::module& module) {
       .addColumn("road_height", &Simulation::truth, &DriveTruth::road_height);
   module.def(
       "simulator_keywords",
-      [](const OptionMap& keywords, bool of_vehicle, const std::vector<std::string>& arguments) {
-        if (of_vehicle) return Keywords{keywords};  // who makes the vehicle knows its options
+      [](const OptionMap& keywords, const std::vector<std::string>& arguments) {
         return takeKeywords(keywords, SimulatorOptions::describe(), arguments);
       },
-      py::arg("keywords"), py::arg("of_vehicle"), py::arg("arguments"));
-  defWork<Keywords, EffectLibrary>(module, "simulate", &simulateArrays, "keywords", "library");
+      py::arg("keywords"), py::arg("arguments"));
+  defWork<OptionMap, EffectLibrary>(module, "simulate", &simulateArrays, "keywords", "library");
 }
 
 }  // namespace suspension_health_monitor

@@ -30,9 +30,9 @@ const SuspensionMonitor& monitorOf(const VehiclePipeline& made) {
   return *made.strut();
 }
 
-Identification identifyArrays(const Recordings& recordings, const Keywords& keywords,
+Identification identifyArrays(const Recordings& recordings, const OptionMap& keywords,
                               const std::optional<StrutModel>& model, LongWork& work) {
-  MonitorOptions options = keywords.forArrays().monitor;
+  MonitorOptions options = arrayOptions(keywords).monitor;
   const double period = periodOf(recordings, options);
   const Stamp shift = shiftOf(recordings);
   options.sample_period = period;
@@ -54,9 +54,9 @@ Identification identifyArrays(const Recordings& recordings, const Keywords& keyw
   return found;
 }
 
-HealthSummary watchArrays(const Recordings& recordings, const Keywords& keywords,
+HealthSummary watchArrays(const Recordings& recordings, const OptionMap& keywords,
                           const std::optional<Baseline>& healthy, const std::string& file, LongWork& work) {
-  const PipelineOptions options = keywords.forArrays();
+  const PipelineOptions options = arrayOptions(keywords);
   requireFittingPeriod(recordings, options.monitor);
   const Stamp shift = shiftOf(recordings);
   MonitorOptions its = options.monitor;
@@ -78,18 +78,18 @@ HealthSummary watchArrays(const Recordings& recordings, const Keywords& keywords
                            course);
 }
 
-Comparison compareArrays(const Recordings& recordings, const Keywords& keywords, const std::optional<StrutModel>& model,
-                         LongWork& work) {
+Comparison compareArrays(const Recordings& recordings, const OptionMap& keywords,
+                         const std::optional<StrutModel>& model, LongWork& work) {
   CompareOptions comparing;
   comparing.model = model;
   comparing.fit = !model;
-  return judgeArrays(&compare, recordings, keywords.forArrays().monitor, comparing, work);
+  return judgeArrays(&compare, recordings, arrayOptions(keywords).monitor, comparing, work);
 }
 
-SearchedStrut diagnoseArrays(const Recordings& recordings, const Keywords& keywords,
+SearchedStrut diagnoseArrays(const Recordings& recordings, const OptionMap& keywords,
                              const std::optional<StrutModel>& model, const EffectLibrary& candidates, int threads,
                              LongWork& work) {
-  const MonitorOptions options = keywords.forArrays().monitor;
+  const MonitorOptions options = arrayOptions(keywords).monitor;
   DiagnoseOptions searching;
   searching.model = model;
   searching.candidates = candidates;
@@ -105,13 +105,13 @@ SearchedStrut diagnoseArrays(const Recordings& recordings, const Keywords& keywo
 }  // namespace
 
 void bindWork(pybind11::module& module) {
-  defWork<Recordings, Keywords, std::optional<StrutModel>>(module, "identify", &identifyArrays, "recordings",
-                                                           "keywords", "model");
-  defWork<Recordings, Keywords, std::optional<Baseline>, std::string>(module, "health", &watchArrays, "recordings",
-                                                                      "keywords", "baseline", "file");
-  defWork<Recordings, Keywords, std::optional<StrutModel>>(module, "compare", &compareArrays, "recordings", "keywords",
-                                                           "model");
-  defWork<Recordings, Keywords, std::optional<StrutModel>, EffectLibrary, int>(
+  defWork<Recordings, OptionMap, std::optional<StrutModel>>(module, "identify", &identifyArrays, "recordings",
+                                                            "keywords", "model");
+  defWork<Recordings, OptionMap, std::optional<Baseline>, std::string>(module, "health", &watchArrays, "recordings",
+                                                                       "keywords", "baseline", "file");
+  defWork<Recordings, OptionMap, std::optional<StrutModel>>(module, "compare", &compareArrays, "recordings", "keywords",
+                                                            "model");
+  defWork<Recordings, OptionMap, std::optional<StrutModel>, EffectLibrary, int>(
       module, "diagnose", &diagnoseArrays, "recordings", "keywords", "model", "candidates", "threads");
 }
 

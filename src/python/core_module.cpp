@@ -10,15 +10,9 @@ PYBIND11_MODULE(_core, module) {
   py::class_<Recording>(module, "Readings", "Arrays of one drive, checked and ready to be read.")
       .def(py::init<std::vector<ReadingStream>, std::optional<py::array_t<double>>>(), py::arg("streams"),
            py::arg("across"));
-  py::class_<UnusableList>(module, "UnusableList", "A value that no option takes.").def(py::init<std::string>());
-  py::class_<Keywords>(module, "Keywords", "Options by their full names.")
-      .def("with_defaults",
-           [](Keywords self, const Keywords& defaults) {
-             self.values.insert(defaults.values.begin(), defaults.values.end());
-             return self;
-           })
-      .def("without_messages", &Keywords::withoutMessages, "Those that arrays have a use for.")
-      .def_property_readonly("assignments", &Keywords::assignments, "NAME=VALUE each, for `--set`");
+  py::class_<UnusableList>(module, "UnusableList", "A value that no option takes.")
+      .def(py::init<std::string>())
+      .def("__str__", [](const UnusableList& list) { return list.text; });
   module.def(
       "monitor_keywords",
       [](const OptionMap& keywords, const std::vector<std::string>& arguments) {
@@ -26,6 +20,7 @@ PYBIND11_MODULE(_core, module) {
       },
       py::arg("keywords"), py::arg("arguments"),
       "The keywords of a call by the options' full names; refuses an unknown one, naming the nearest.");
+  module.def("without_messages", &withoutMessages, py::arg("keywords"), "Those that arrays have a use for.");
   bindModel(module);
   bindReports(module);
   bindResults(module);

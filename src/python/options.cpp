@@ -23,15 +23,14 @@ bool isOfArrays(const OptionField<ShellOptions>& field) { return field.name == "
 
 }  // namespace
 
-Keywords Keywords::withoutMessages() const {
-  Keywords rest = *this;
+OptionMap withoutMessages(OptionMap keywords) {
   for (const auto& field : kShellFields)
-    if (!isOfArrays(field) && kArguments.count(field.name) == 0) rest.values.erase(std::string(field.name));
-  return rest;
+    if (!isOfArrays(field) && kArguments.count(field.name) == 0) keywords.erase(std::string(field.name));
+  return keywords;
 }
 
-Keywords takeKeywords(const OptionMap& keywords, const std::vector<OptionDescription>& known,
-                      const std::vector<std::string>& arguments) {
+OptionMap takeKeywords(const OptionMap& keywords, const std::vector<OptionDescription>& known,
+                       const std::vector<std::string>& arguments) {
   OptionMap taken, unknown;
   for (const auto& [name, value] : keywords) {
     const auto option = std::find_if(known.begin(), known.end(), [&, &its = name](const OptionDescription& one) {
@@ -45,32 +44,19 @@ Keywords takeKeywords(const OptionMap& keywords, const std::vector<OptionDescrip
   std::vector<OptionDescription> named = known;
   for (const std::string& argument : arguments) named.push_back({"", argument, "", "", "", ""});
   refuseUnknown(unknown, named);
-  return {taken};
+  return taken;
 }
 
-std::vector<std::string> Keywords::assignments() const {
-  struct Writer {
-    std::string operator()(bool b) const { return b ? "true" : "false"; }
-    std::string operator()(int i) const { return std::to_string(i); }
-    std::string operator()(double d) const { return formatted("%.17g", d); }
-    std::string operator()(const std::string& s) const { return s; }
-    std::string operator()(const UnusableList& list) const { return list.text; }
-  };
-  std::vector<std::string> all;
-  for (const auto& [name, value] : values) all.push_back(name + '=' + std::visit(Writer{}, value));
-  return all;
-}
-
-PipelineOptions Keywords::forArrays() const {
+PipelineOptions arrayOptions(const OptionMap& keywords) {
   for (const auto& field : kShellFields) {
-    if (isOfArrays(field) || values.count(std::string(field.name)) == 0) continue;
+    if (isOfArrays(field) || keywords.count(std::string(field.name)) == 0) continue;
     const auto argument = kArguments.find(field.name);
     throw std::invalid_argument(std::string(field.name) +
                                 " is an option of messages and files, must not come with arrays: " +
                                 (argument != kArguments.end() ? "for these there is " + argument->second + '='
                                                               : "these have the accelerations along the strut"));
   }
-  return PipelineOptions::fromValues(values);
+  return PipelineOptions::fromValues(keywords);
 }
 
 }  // namespace suspension_health_monitor

@@ -7,27 +7,22 @@
 
 namespace suspension_health_monitor {
 
-/// Keywords of a call by the full names of the options, to be handed on to one of the functions that do the work.
-struct Keywords {
-  OptionMap values;
-
-  /// @return without those that are about messages, of which arrays have none: axes, frames, ranges, rates, publishing.
-  Keywords withoutMessages() const;
-
-  /// @return NAME=VALUE each, as `--set` takes them.
-  std::vector<std::string> assignments() const;
-
-  /// @return the options where readings are arrays.
-  /// @throws std::invalid_argument  naming name, value and what is allowed; also for options of messages and files,
-  /// which arrays have no use for.
-  PipelineOptions forArrays() const;
-};
+// Keywords of a call are a dict in Python, here an OptionMap by the full names of the options.
 
 /// @param keywords  of a call: an option's name, with _ for / where a Python name is wanted: health_damping_warn.
 /// @param known  all options that the call understands.
 /// @param arguments  its other keywords, for the proposal of a name that is near an unknown one.
+/// @return them by full names.
 /// @throws std::invalid_argument  naming an unknown name.
-Keywords takeKeywords(const OptionMap& keywords, const std::vector<OptionDescription>& known,
-                      const std::vector<std::string>& arguments);
+OptionMap takeKeywords(const OptionMap& keywords, const std::vector<OptionDescription>& known,
+                       const std::vector<std::string>& arguments);
+
+/// @return without those that are about messages, of which arrays have none: axes, frames, ranges, rates, publishing.
+OptionMap withoutMessages(OptionMap keywords);
+
+/// @return the options where readings are arrays.
+/// @throws std::invalid_argument  naming name, value and what is allowed; also for options of messages and files,
+/// which arrays have no use for.
+PipelineOptions arrayOptions(const OptionMap& keywords);
 
 }  // namespace suspension_health_monitor

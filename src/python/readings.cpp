@@ -1,6 +1,5 @@
 #include "readings.h"
 
-#include <algorithm>
 #include <string>
 
 #include "suspension_health_monitor/internal/signal/alignment.h"

@@ -27,9 +27,9 @@ HealthSummary HealthSummary::of(const HealthLog& log, const SuspensionMonitor& m
   summary.events = log.events();
   summary.early_warnings = log.earlyWarnings();
   summary.end = log.latest();
-  summary.end.stamp -= course.shift();
+  summary.end.time -= course.shift();
   for (std::vector<HealthMoment>* moments : {&summary.events, &summary.early_warnings})
-    for (HealthMoment& moment : *moments) moment.stamp -= course.shift();
+    for (HealthMoment& moment : *moments) moment.time -= course.shift();
   for (const HealthLevel level : kHealthLevels) {
     summary.seconds[nameOf(level)] = toSeconds(log.duration(level));
     summary.counts[nameOf(level)] = log.count(level);

@@ -95,13 +95,4 @@ SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& 
   return msg;
 }
 
-sensor_msgs::Imu toImu(double acceleration, double gravity, const std_msgs::Header& header) {
-  sensor_msgs::Imu imu;
-  imu.header = header;
-  imu.orientation_covariance[0] = -1.0;
-  imu.angular_velocity_covariance[0] = -1.0;
-  imu.linear_acceleration.z = acceleration + gravity;
-  return imu;
-}
-
 }  // namespace suspension_health_monitor

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <ros/time.h>
-#include <sensor_msgs/Imu.h>
 #include <suspension_health_monitor/ModelComparison.h>
 #include <suspension_health_monitor/ParameterEstimate.h>
 #include <suspension_health_monitor/SimulationTruth.h>
@@ -33,8 +32,5 @@ ModelComparison toMsg(const ComparisonReport& comparison, const std::string& fra
 SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, const std_msgs::Header& header);
 /// @param hidden  effects in the strut.
 SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& hidden, const std_msgs::Header& header);
-
-/// An IMU lying level: the reading on z, gravity on top of it, covariances unknown (all 0) and no orientation (-1).
-sensor_msgs::Imu toImu(double acceleration, double gravity, const std_msgs::Header& header);
 
 }  // namespace suspension_health_monitor

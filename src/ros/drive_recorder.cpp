@@ -11,7 +11,6 @@
 #include <suspension_health_monitor/SuspensionHealth.h>
 
 #include <sstream>
-#include <utility>
 
 namespace suspension_health_monitor {
 

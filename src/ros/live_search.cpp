@@ -1,5 +1,7 @@
 #include "live_search.h"
 
+#include <sys/resource.h>
+
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +12,23 @@
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr std::uint32_t kThreads = 2;  // one for the search, one to refuse another call meanwhile
+constexpr int kNiceness = 10;
+
+/// Ends a search from within its progress report.
+struct Stopped : std::runtime_error {
+  Stopped() : std::runtime_error("the monitor is shutting down") {}
+};
+
+/// Every figure is NaN until there is one.
+void takeFiguresOff(DiagnoseResponse& response) {
+  response.base_held_out_rmse = response.base_fit_percent = response.noise_floor = kUnknown;
+  response.structured_share = response.surface_share = kUnknown;
+  response.extended_held_out_rmse = response.extended_fit_percent = kUnknown;
+  response.damping_to_mass = response.stiffness_to_mass = kUnknown;
+}
+void takeFiguresOff(DiagnoseVehicleResponse&) {}  // it has none
 
 /// @param lacks  what the samples lack.
 /// @throws std::runtime_error  in words for people.
@@ -41,7 +60,8 @@ void addExtended(const Diagnosis& found, DiagnoseResponse& response) {
 
 /// The answer of ~diagnose: the whole result as plain fields.
 DiagnoseResponse toResponse(const Diagnosis& found) {
-  DiagnoseResponse response = withoutFigures();
+  DiagnoseResponse response;
+  takeFiguresOff(response);
   response.success = true;
   response.message = found.remainder.empty() ? found.summary : found.summary + ' ' + found.remainder;
   response.verdict = nameOf(found.verdict);
@@ -103,14 +123,60 @@ typename DiagnoseService<Service>::Search searchAll(SearchTask task, TakeDiagnos
 
 }  // namespace
 
-DiagnoseResponse withoutFigures() {
-  DiagnoseResponse response;
-  response.base_held_out_rmse = response.base_fit_percent = response.noise_floor = kUnknown;
-  response.structured_share = response.surface_share = kUnknown;
-  response.extended_held_out_rmse = response.extended_fit_percent = kUnknown;
-  response.damping_to_mass = response.stiffness_to_mass = kUnknown;
-  return response;
+template <class Service>
+DiagnoseService<Service>::DiagnoseService(const ros::NodeHandle& private_node, MonitorThread& nodelet_thread,
+                                          Prepare prepare)
+    : nodelet_thread_(nodelet_thread), prepare_(std::move(prepare)), spinner_(kThreads, &queue_) {
+  ros::NodeHandle node(private_node);
+  node.setCallbackQueue(&queue_);
+  server_ = node.advertiseService("diagnose", &DiagnoseService<Service>::onDiagnose, this);
+  spinner_.start();
 }
+
+template <class Service>
+DiagnoseService<Service>::~DiagnoseService() {
+  stopping_ = true;
+  server_.shutdown();  // waits for calls that run, and they see stopping_
+  spinner_.stop();
+}
+
+template <class Service>
+bool DiagnoseService<Service>::onDiagnose(Request& request, Response& response) {
+  const std::unique_lock<std::mutex> only_one(searching_, std::try_to_lock);
+  takeFiguresOff(response);
+  if (!only_one) {
+    response.message = "a search is running already: call again when it has ended";
+    return true;
+  }
+  try {
+    response = answer(request.window);
+  } catch (const Stopped&) {
+    return false;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+template <class Service>
+typename Service::Response DiagnoseService<Service>::answer(double window) {
+  // A low priority for this thread and those that it starts, so that on a busy machine the samples go first. If it
+  // cannot be had, the search works all the same.
+  setpriority(PRIO_PROCESS, 0, kNiceness);
+  const Search search = nodelet_thread_.run([this, window] { return prepare_(window); });
+  const Outcome outcome = search([this](double) { stopIfAsked(); });
+  stopIfAsked();
+  nodelet_thread_.run(outcome.take);
+  return outcome.response;
+}
+
+template <class Service>
+void DiagnoseService<Service>::stopIfAsked() const {
+  if (stopping_ || !ros::ok() || ros::isShuttingDown()) throw Stopped();
+}
+
+template class DiagnoseService<Diagnose>;
+template class DiagnoseService<DiagnoseVehicle>;
 
 double searchSpan(double window, double kept) {
   if (!(window >= 0.0 && window <= kept))

@@ -43,6 +43,7 @@ LiveStrut::LiveStrut(StrutHost& host, std::size_t place, const VehicleOptions& o
       diagnostics_(title, options_.shell.input_timeout, model_, [this] { return host_.silentTopics(); }) {}
 
 LiveStrut::~LiveStrut() {  // nothing may call back into members that are already gone
+  diagnose_.reset();
   for (ros::ServiceServer& service : services_) service.shutdown();
 }
 
@@ -62,7 +63,7 @@ void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& privat
                own.advertiseService("save_model", &LiveStrut::onSaveModel, this),
                own.advertiseService("save_baseline", &LiveStrut::onSaveBaseline, this),
                own.advertiseService("reset", &LiveStrut::onReset, this)};
-  diagnose_.emplace(own, host_.queue(), [this](double window) { return host_.searchFor(place_, window); });
+  diagnose_.emplace(own, host_.thread(), [this](double window) { return host_.searchFor(place_, window); });
 }
 
 const SuspensionMonitor* LiveStrut::monitor() const {
@@ -75,8 +76,8 @@ void LiveStrut::begin(MessagePipeline& pipeline) const {
 }
 
 void LiveStrut::publishModel() {
-  reports_->model().change(monitor() != nullptr ? monitor()->effects() : model_.effects(), monitor(),
-                           host_.frameOf(place_));
+  reports_->changeModel(monitor() != nullptr ? monitor()->effects() : model_.effects(), monitor(),
+                        host_.frameOf(place_));
 }
 
 void LiveStrut::publish(const MonitorReport& report) {

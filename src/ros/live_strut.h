@@ -3,7 +3,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
-#include <suspension_health_monitor/Diagnose.h>
 #include <suspension_health_monitor/SetEffects.h>
 
 #include <array>
@@ -11,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnose_service.h"
 #include "live_baseline.h"
 #include "live_model.h"
+#include "live_search.h"
 #include "message_pipeline.h"
 #include "report_topics.h"
 #include "strut_diagnostics.h"
@@ -32,8 +31,8 @@ class StrutHost {
   virtual const std::string& frameOf(std::size_t strut) const = 0;    ///< frame_id of its body's IMU
   virtual void describeInput(std::size_t strut, Status& status) = 0;  ///< of the strut's own sensors
   virtual DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) = 0;
-  virtual std::string reset() = 0;                   ///< tells what it has done
-  virtual ros::CallbackQueueInterface& queue() = 0;  ///< where all callbacks come from
+  virtual std::string reset() = 0;      ///< tells what it has done
+  virtual MonitorThread& thread() = 0;  ///< that serves it
 };
 
 /// A live strut as others see it, alone or one of a vehicle: its topics, its tasks of /diagnostics, and its services,

@@ -85,7 +85,7 @@ void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
     if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
   });
   reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
-  diagnose_.emplace(private_node, thread_->queue(), [this](double window) {
+  diagnose_.emplace(private_node, thread(), [this](double window) {
     return searchOf(samplesFor(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
   });
 }
@@ -195,7 +195,15 @@ void MonitorNodelet::takeDiagnosis(const VehicleDiagnosis& found) {
   onTick();
 }
 
+/// Keeps launch files that load it running until the next version; VehicleNodelet does its work.
+class CornersNodelet : public nodelet::Nodelet {
+  void onInit() override {
+    NODELET_WARN("CornersNodelet does nothing any more: VehicleNodelet compares the corners; do not load it");
+  }
+};
+
 }  // namespace suspension_health_monitor
 
 PLUGINLIB_EXPORT_CLASS(suspension_health_monitor::MonitorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(suspension_health_monitor::VehicleNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(suspension_health_monitor::CornersNodelet, nodelet::Nodelet)

@@ -68,7 +68,7 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   void describeInput(std::size_t strut, Status& status) override;
   DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) override;
   std::string reset() override;
-  ros::CallbackQueueInterface& queue() override { return thread_->queue(); }
+  MonitorThread& thread() override { return *thread_; }
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;

@@ -31,8 +31,6 @@ MonitorThread::~MonitorThread() {
   thread_.join();
 }
 
-void MonitorThread::run(std::function<void()> work) { addWork<void>(queue_, std::move(work), 0).get(); }
-
 void MonitorThread::loop() {
   while (!ends_) {
     queue_.callAvailable(kLongestWait);

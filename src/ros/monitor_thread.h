@@ -6,35 +6,12 @@
 
 #include <atomic>
 #include <boost/make_shared.hpp>
-#include <functional>
 #include <future>
 #include <memory>
 #include <thread>
-#include <utility>
+#include <type_traits>
 
 namespace suspension_health_monitor {
-
-/// Has work done by the thread of a callback queue.
-/// @param owner  identifies the work, should it be taken out again before it is done:
-/// CallbackQueueInterface::removeByID()
-///        makes its future throw std::future_error.
-/// @return what the work returns or throws.
-template <class Result>
-std::future<Result> addWork(ros::CallbackQueueInterface& queue, std::function<Result()> work, std::uint64_t owner) {
-  class Work : public ros::CallbackInterface {
-   public:
-    explicit Work(std::function<Result()> work) : task(std::move(work)) {}
-    CallResult call() override {
-      task();
-      return Success;
-    }
-    std::packaged_task<Result()> task;
-  };
-  const auto item = boost::make_shared<Work>(std::move(work));
-  std::future<Result> result = item->task.get_future();
-  queue.addCallback(item, owner);
-  return result;
-}
 
 /// One queue and one thread for the callbacks of all monitors of a process, so that none of them needs a lock.
 ///
@@ -64,8 +41,23 @@ class MonitorThread {
   }
 
   /// Has work done between two callbacks, and waits for its end. Not to be called by a callback.
-  /// @throws whatever the work throws.
-  void run(std::function<void()> work);
+  /// @return what the work returns or throws.
+  template <class Work>
+  auto run(const Work& work) {
+    class Callback : public ros::CallbackInterface {
+     public:
+      explicit Callback(const Work& its) : task(its) {}
+      CallResult call() override {
+        task();
+        return Success;
+      }
+      std::packaged_task<std::invoke_result_t<const Work&>()> task;
+    };
+    const auto callback = boost::make_shared<Callback>(work);
+    auto result = callback->task.get_future();
+    queue_.addCallback(callback);
+    return result.get();
+  }
 
  private:
   void loop();

@@ -1,5 +1,7 @@
 #include "report_topics.h"
 
+#include <suspension_health_monitor/ModelInUse.h>
+
 #include <boost/make_shared.hpp>
 #include <cmath>
 #include <utility>
@@ -26,12 +28,12 @@ ReportTopics::ReportTopics(ros::NodeHandle& private_node, const PipelineOptions&
       la_(private_node.advertise<ParameterEstimate>("la", kQueueSize)),
       comparison_(private_node.advertise<ModelComparison>("comparison", kQueueSize)),
       health_(private_node.advertise<SuspensionHealth>("health", kQueueSize)),
-      model_(private_node) {
+      model_(private_node.advertise<ModelInUse>("model", 1, true)) {
   setStride(options.shell.publish_every);
 }
 
 void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor& monitor, const std::string& frame) {
-  model_.note(monitor, frame);
+  if (!model_has_estimate_ && monitor.modelEstimate().valid()) changeModel(monitor.effects(), &monitor, frame);
   if (reports_++ % stride_ != 0) return;
   std_msgs::Header header;
   header.stamp = toRosTime(report.stamp);
@@ -44,9 +46,9 @@ void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor&
   send(health_, [&] { return toMsg(report, monitor.baseline(), header); });
 }
 
-void ModelTopic::change(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
-                        const std::string& frame) {
-  has_estimate_ = monitor != nullptr && monitor->modelEstimate().valid();
+void ReportTopics::changeModel(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
+                               const std::string& frame) {
+  model_has_estimate_ = monitor != nullptr && monitor->modelEstimate().valid();
   auto message = boost::make_shared<ModelInUse>();
   message->header.frame_id = frame;
   if (monitor != nullptr) message->header.stamp = toRosTime(monitor->report().stamp);
@@ -59,13 +61,13 @@ void ModelTopic::change(const std::vector<ActiveEffect>& effects, const Suspensi
       message->shapes.push_back(active.shapes[i]);
     }
   }
-  if (has_estimate_) {
+  if (model_has_estimate_) {
     const StrutEstimate& estimate = monitor->modelEstimate();
     message->damping_to_mass = estimate.damping_to_mass;
     message->stiffness_to_mass = estimate.stiffness_to_mass;
     message->yaml = toYaml({estimate.damping_to_mass, estimate.stiffness_to_mass, effects, {}});
   }
-  publisher_.publish(message);
+  model_.publish(message);
 }
 
 }  // namespace suspension_health_monitor

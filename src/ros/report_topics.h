@@ -1,7 +1,6 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <suspension_health_monitor/ModelInUse.h>
 
 #include <cstdint>
 #include <optional>
@@ -14,27 +13,8 @@
 
 namespace suspension_health_monitor {
 
-/// The latched topic ~model: what the model is, published when it changes.
-class ModelTopic {
- public:
-  explicit ModelTopic(ros::NodeHandle& private_node)
-      : publisher_(private_node.advertise<ModelInUse>("model", 1, true)) {}
-
-  /// The model is another one from now on.
-  /// @param monitor  nullptr as long as the sample period is being measured.
-  void change(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor, const std::string& frame);
-
-  /// To be called with every report: publishes the first valid estimate of a model.
-  void note(const SuspensionMonitor& monitor, const std::string& frame) {
-    if (!has_estimate_ && monitor.modelEstimate().valid()) change(monitor.effects(), &monitor, frame);
-  }
-
- private:
-  ros::Publisher publisher_;
-  bool has_estimate_ = false;
-};
-
-/// What is published of every sample: ~estimate, ~ls, ~la, ~comparison, ~health; and ~model, when it changes.
+/// What is published of every sample: ~estimate, ~ls, ~la, ~comparison, ~health; and what the model is, when it
+/// changes: the latched topic ~model.
 class ReportTopics {
  public:
   static constexpr std::uint32_t kQueueSize = 100000;  // messages
@@ -48,13 +28,16 @@ class ReportTopics {
   /// @param every  so many reports make one publication, >= 1.
   void setStride(int every) { stride_ = static_cast<std::uint64_t>(every); }
 
-  ModelTopic& model() { return model_; }
+  /// The model is another one from now on.
+  /// @param monitor  nullptr as long as the sample period is being measured.
+  void changeModel(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
+                   const std::string& frame);
 
  private:
   std::uint64_t stride_ = 1, reports_ = 0;
   std::optional<double> sprung_mass_;  // [kg]
-  ros::Publisher estimate_, ls_, la_, comparison_, health_;
-  ModelTopic model_;
+  ros::Publisher estimate_, ls_, la_, comparison_, health_, model_;
+  bool model_has_estimate_ = false;
 };
 
 }  // namespace suspension_health_monitor

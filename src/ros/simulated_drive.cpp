@@ -1,8 +1,7 @@
-// What simulated drives share, and that of one strut as messages.
-
 #include "simulated_drive.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "conversions.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
@@ -14,64 +13,153 @@ constexpr const char* kSprungTopic = "sprung/imu";
 constexpr const char* kUnsprungTopic = "unsprung/imu";
 constexpr const char* kRoadTopic = "road/imu";
 
-class StrutMessages {
- public:
-  StrutMessages(const SimulatorOptions& options, Stamp start)
-      : options_(options),
-        simulator_(options.drive),
-        sprung_gravity_(SensorFaults::from(options.drive.hidden_faults).readAtRest(options.publishing.gravity)),
-        start_(start) {}
+/// @return the header of a message. ROS means by stamp 0 that there is none, so what is measured there is stamped a
+/// nanosecond later. Nothing can be stamped before; only a clock that is set wrong on purpose gets there.
+std_msgs::Header headerAt(Stamp stamp, const std::string& frame) {
+  std_msgs::Header header;
+  header.stamp = std::max(toRosTime(std::max(stamp, Stamp::zero())), ros::TIME_MIN);
+  header.frame_id = frame;
+  return header;
+}
 
-  std::optional<SimulatedInstant> next() {
-    const std::optional<DriveSample> sample = simulator_.next();
-    if (!sample) return std::nullopt;
-    const std_msgs::Header header = headerAt(start_ + sample->stamp, "sprung_imu");
-    SimulatedInstant instant{header.stamp, {}};
-    const auto add = [&](const char* topic, const auto& message) { instant.messages.emplace_back(topic, message); };
-    const PublishingOptions& published = options_.publishing;
-    if (sample->sprung)
-      add(kSprungTopic, withSway(sample->body, imuOf(*sample->sprung, sprung_gravity_, "sprung_imu")));
-    if (sample->unsprung) add(kUnsprungTopic, imuOf(*sample->unsprung, published.gravity, "unsprung_imu"));
-    if (sample->road && published.road_imu) add(kRoadTopic, imuOf(*sample->road, published.gravity, "road_imu"));
-    add(kTruthTopic, toMessage(sample->truth, header));
-    return instant;
+/// An IMU lying level: the reading on z, gravity on top of it, covariances unknown (all 0) and no orientation (-1).
+/// @param start  of the drive.
+sensor_msgs::Imu imuOf(const AccelerometerReading& reading, double gravity, Stamp start, const std::string& frame) {
+  sensor_msgs::Imu imu;
+  imu.header = headerAt(start + reading.stamp, frame);
+  imu.orientation_covariance[0] = -1.0;
+  imu.angular_velocity_covariance[0] = -1.0;
+  imu.linear_acceleration.z = reading.acceleration + gravity;
+  return imu;
+}
+
+/// What the body's IMU reads besides.
+void addSway(const Sway& sway, bool has_gyro, sensor_msgs::Imu& imu) {
+  imu.linear_acceleration.x = sway.acceleration[0];
+  imu.linear_acceleration.y = sway.acceleration[1];
+  if (!has_gyro) return;
+  imu.angular_velocity.x = sway.angular_rate[0];
+  imu.angular_velocity.y = sway.angular_rate[1];
+  imu.angular_velocity_covariance[0] = 0.0;
+}
+
+void addFaults(const std::vector<ActiveMeasurementEffect>& faults, SimulationTruth& msg) {
+  for (const ActiveMeasurementEffect& fault : faults)
+    for (std::size_t i = 0; i < fault.coefficients.size(); ++i) {
+      msg.effect_names.push_back(nameOfCoefficient(fault.effect, i));
+      msg.effect_coefficients.push_back(fault.coefficients[i]);
+    }
+}
+
+/// @param start  of the drive.
+MessagesOnTopics messagesOf(const SimulatorOptions& options, const DriveSample& sample, Stamp start) {
+  const SimulationOptions& drive = options.drive;
+  const double gravity = options.publishing.gravity;
+  MessagesOnTopics messages;
+  if (sample.sprung) {
+    const double read_at_rest = SensorFaults::from(drive.hidden_faults).readAtRest(gravity);
+    sensor_msgs::Imu imu = imuOf(*sample.sprung, read_at_rest, start, "sprung_imu");
+    addSway(sample.body, drive.body_rate > 0.0, imu);
+    messages.emplace_back(kSprungTopic, imu);
   }
+  if (sample.unsprung) messages.emplace_back(kUnsprungTopic, imuOf(*sample.unsprung, gravity, start, "unsprung_imu"));
+  if (sample.road && options.publishing.road_imu)
+    messages.emplace_back(kRoadTopic, imuOf(*sample.road, gravity, start, "road_imu"));
+  SimulationTruth truth = toMsg(sample.truth, drive.hidden, headerAt(start + sample.stamp, "sprung_imu"));
+  addFaults(drive.hidden_faults, truth);
+  messages.emplace_back(kTruthTopic, truth);
+  return messages;
+}
 
- private:
-  sensor_msgs::Imu imuOf(const AccelerometerReading& reading, double gravity, const char* frame) const {
-    return toImu(reading.acceleration, gravity, headerAt(start_ + reading.stamp, frame));
+std::string truthTopic(const VehicleStrut& strut) { return '~' + strut.name + "/truth"; }
+
+void set(geometry_msgs::Vector3& message, const Eigen::Vector3d& vector) {
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+}
+
+VehicleSimulationTruth toMsg(const VehicleTruth& truth, const Vehicle& vehicle, const std_msgs::Header& header) {
+  VehicleSimulationTruth msg;
+  msg.header = header;
+  msg.heave = truth.body[0];
+  msg.pitch = truth.body[1];
+  msg.roll = truth.body[2];
+  msg.pitch_rate = truth.body_rate[1];
+  msg.roll_rate = truth.body_rate[2];
+  msg.heave_acceleration = truth.body_acceleration[0];
+  msg.pitch_acceleration = truth.body_acceleration[1];
+  msg.roll_acceleration = truth.body_acceleration[2];
+  msg.forces = truth.forces;
+  msg.known_forces = truth.known_forces;
+  for (const VehicleStrut& at : vehicle.struts) {
+    msg.struts.push_back(at.name);
+    for (const VehicleStrut& of : vehicle.struts)
+      msg.coupling.push_back(vehicle.mobility(at, of) / vehicle.mobility(of, of));
   }
+  return msg;
+}
 
-  sensor_msgs::Imu withSway(const Sway& sway, sensor_msgs::Imu imu) const {
-    imu.linear_acceleration.x = sway.acceleration[0];
-    imu.linear_acceleration.y = sway.acceleration[1];
-    if (options_.drive.body_rate <= 0.0) return imu;  // it has no gyro
-    imu.angular_velocity.x = sway.angular_rate[0];
-    imu.angular_velocity.y = sway.angular_rate[1];
-    imu.angular_velocity_covariance[0] = 0.0;
-    return imu;
+void addImus(const VehicleSimulationOptions& options, const VehicleInstant& sample, Stamp start,
+             MessagesOnTopics& messages) {
+  const auto add = [&](const std::string& topic, const std::string& frame,
+                       const std::optional<AccelerometerReading>& reading) {
+    if (reading) messages.emplace_back(topic, imuOf(*reading, options.drive.gravity, start, frame));
+  };
+  for (std::size_t i = 0; i < sample.struts.size(); ++i) {
+    const VehicleStrut& strut = options.vehicle.struts[i];
+    if (options.has_sprung_imu[i]) add(sprungTopic(strut), strut.name + "_sprung_imu", sample.struts[i].sprung);
+    add(unsprungTopic(strut), strut.name + "_unsprung_imu", sample.struts[i].unsprung);
   }
+  if (!sample.body) return;
+  sensor_msgs::Imu imu = imuOf({sample.body->stamp, 0.0}, 0.0, start, "body_imu");
+  set(imu.linear_acceleration, sample.body->acceleration);
+  set(imu.angular_velocity, sample.body->angular_rate);
+  imu.angular_velocity_covariance[0] = 0.0;
+  messages.emplace_back(kBodyImuTopic, imu);
+}
 
-  SimulationTruth toMessage(const DriveTruth& truth, const std_msgs::Header& header) const {
-    SimulationTruth msg = toMsg(truth, options_.drive.hidden, header);
-    for (const ActiveMeasurementEffect& fault : options_.drive.hidden_faults)
-      for (std::size_t i = 0; i < fault.coefficients.size(); ++i) {
-        msg.effect_names.push_back(nameOfCoefficient(fault.effect, i));
-        msg.effect_coefficients.push_back(fault.coefficients[i]);
-      }
-    return msg;
+/// @param start  of the drive.
+MessagesOnTopics messagesOf(const VehicleSimulationOptions& options, const VehicleInstant& sample, Stamp start) {
+  const Vehicle& vehicle = options.vehicle;
+  const auto header_of = [&](const std::string& frame) { return headerAt(start + sample.stamp, frame); };
+  MessagesOnTopics messages;
+  addImus(options, sample, start, messages);
+  for (std::size_t k = 0; k < sample.known_forces.size(); ++k) {
+    geometry_msgs::WrenchStamped wrench;
+    wrench.header = header_of(vehicle.known_forces[k].name);
+    wrench.wrench.force.z = sample.known_forces[k];
+    messages.emplace_back(wrenchTopic(vehicle.known_forces[k]), wrench);
   }
+  for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
+    const VehicleStrut& strut = vehicle.struts[i];
+    messages.emplace_back(truthTopic(strut), toMsg(sample.truth.struts[i], strut.hidden, header_of(strut.name)));
+  }
+  messages.emplace_back(kTruthTopic, toMsg(sample.truth, vehicle, header_of("centre_of_gravity")));
+  return messages;
+}
 
-  SimulatorOptions options_;
-  DriveSimulator simulator_;
-  double sprung_gravity_;
-  Stamp start_;
-};
+/// @param parts  of the options, which the simulator is made of.
+/// @return a drive without topics.
+template <class Simulator, class Options, class... Parts>
+SimulatedDrive driveWith(const Options& options, const Parts&... parts) {
+  SimulatedDrive drive;
+  drive.playing = options.playing;
+  drive.duration = options.drive.duration;
+  drive.begin = [options, parts...](Stamp start) -> DriveSource {
+    return [options, start, simulator = std::make_shared<Simulator>(parts...)]() -> std::optional<SimulatedInstant> {
+      const auto sample = simulator->next();
+      if (!sample) return std::nullopt;
+      return SimulatedInstant{headerAt(start + sample->stamp, "").stamp, messagesOf(options, *sample, start)};
+    };
+  };
+  return drive;
+}
 
 }  // namespace
 
 SimulatedDrive driveOf(const SimulatorOptions& options) {
-  SimulatedDrive drive = driveWith<StrutMessages>(options);
+  SimulatedDrive drive = driveWith<DriveSimulator>(options, options.drive);
   drive.rate = fasterRate(options.drive);
   drive.topics = {{kSprungTopic, sensor_msgs::Imu()}, {kUnsprungTopic, sensor_msgs::Imu()}};
   if (options.publishing.road_imu) drive.topics.emplace_back(kRoadTopic, sensor_msgs::Imu());
@@ -80,11 +168,21 @@ SimulatedDrive driveOf(const SimulatorOptions& options) {
   return drive;
 }
 
-std_msgs::Header headerAt(Stamp stamp, const std::string& frame) {
-  std_msgs::Header header;
-  header.stamp = std::max(toRosTime(std::max(stamp, Stamp::zero())), ros::TIME_MIN);
-  header.frame_id = frame;
-  return header;
+SimulatedDrive driveOf(const VehicleSimulationOptions& options) {
+  SimulatedDrive drive = driveWith<VehicleSimulator>(options, options.vehicle, options.drive);
+  drive.rate = options.drive.rate;
+  for (std::size_t i = 0; i < options.vehicle.struts.size(); ++i) {
+    const VehicleStrut& strut = options.vehicle.struts[i];
+    if (options.has_sprung_imu[i]) drive.topics.emplace_back(sprungTopic(strut), sensor_msgs::Imu());
+    drive.topics.emplace_back(unsprungTopic(strut), sensor_msgs::Imu());
+    drive.topics.emplace_back(truthTopic(strut), SimulationTruth());
+    drive.awaited.push_back(unsprungTopic(strut));
+  }
+  drive.topics.emplace_back(kBodyImuTopic, sensor_msgs::Imu());
+  for (const KnownForce& force : options.vehicle.known_forces)
+    drive.topics.emplace_back(wrenchTopic(force), geometry_msgs::WrenchStamped());
+  drive.topics.emplace_back(kTruthTopic, VehicleSimulationTruth());
+  return drive;
 }
 
 std::string takeVehicleModel(OptionMap& values) {

@@ -6,7 +6,6 @@
 #include <suspension_health_monitor/VehicleSimulationTruth.h>
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,19 +47,6 @@ struct SimulatedDrive {
   std::function<DriveSource(Stamp start)> begin;
 };
 
-/// @tparam Messages  made of options and the stamp at the start; next() returns the instants.
-/// @return a drive without topics.
-template <class Messages, class Options>
-SimulatedDrive driveWith(const Options& options) {
-  SimulatedDrive drive;
-  drive.playing = options.playing;
-  drive.duration = options.drive.duration;
-  drive.begin = [options](Stamp start) -> DriveSource {
-    return [messages = std::make_shared<Messages>(options, start)] { return messages->next(); };
-  };
-  return drive;
-}
-
 /// The drive of one strut: sprung/imu, unsprung/imu, ~truth and, with a third IMU, road/imu.
 SimulatedDrive driveOf(const SimulatorOptions& options);
 
@@ -75,10 +61,5 @@ SimulatedDrive makeSimulatedDrive(OptionMap values);
 /// Takes the option `vehicle_model` out of `values`.
 /// @return empty: a drive of one strut.
 std::string takeVehicleModel(OptionMap& values);
-
-/// @return the header of a message of a simulated drive. ROS means by stamp 0 that there is none, so what is measured
-/// there is stamped a nanosecond later. Nothing can be stamped before; only a clock that is set wrong on purpose gets
-/// there.
-std_msgs::Header headerAt(Stamp stamp, const std::string& frame);
 
 }  // namespace suspension_health_monitor

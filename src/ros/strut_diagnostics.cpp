@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <vector>
 
 #include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

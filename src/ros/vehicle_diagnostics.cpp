@@ -1,10 +1,15 @@
 #include "vehicle_diagnostics.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <suspension_health_monitor/CornerComparison.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
 
 #include "conversions.h"
 #include "strut_diagnostics.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -87,56 +92,67 @@ bool saysTheSame(const CouplingInUse& a, const CouplingInUse& b) {
                        a.bar_stiffness == b.bar_stiffness));
 }
 
-}  // namespace
+constexpr std::array kVerdictNames{"cannot tell", "alike", "load", "damper", "spring"};
 
-VehicleCoupling CouplingOutput::known(const VehicleMonitor* monitor, const std::string& why_none) const {
-  if (monitor != nullptr) return couplingOf(*monitor, struts_, forces_);
-  VehicleCoupling none;
-  none.reason = why_none;
-  return none;
-}
-
-void CouplingOutput::publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp) {
-  CouplingInUse msg = toMsg(known(monitor, why_none), monitor, struts_, forces_);
-  if (last_ && saysTheSame(*last_, msg)) return;
-  msg.header.stamp = stamp;
-  publisher_.publish(msg);
-  last_ = msg;
-}
-
-void CouplingOutput::describe(const VehicleMonitor* monitor, const std::string& why_none,
-                              diagnostic_updater::DiagnosticStatusWrapper& status) const {
-  const VehicleCoupling coupling = known(monitor, why_none);
-  if (!coupling) {
-    status.summary(DiagnosticStatus::STALE, (monitor != nullptr ? "the drives so far " : "") + coupling.reason);
-    return;
+CornerComparison toMsg(const CornerComparisonReport& report, Stamp stamp) {
+  CornerComparison msg;
+  msg.header.stamp = toRosTime(stamp);
+  msg.level = static_cast<CornerComparison::_level_type>(report.level);
+  msg.sentence = describe(report);
+  for (std::size_t i = 0; i < kNumCorners; ++i) {
+    msg.corners[i] = kCornerNames[i];
+    msg.verdicts[i] = static_cast<std::uint8_t>(report.verdicts[i]);
+    msg.damping_deviation[i] = report.damping_deviation[i].value_or(kUnknown);
+    msg.stiffness_deviation[i] = report.stiffness_deviation[i].value_or(kUnknown);
   }
-  status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
-  if (const std::string mistake = describeMistake(*monitor, struts_); !mistake.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, mistake);
-  status.addf("model error", "%.2g %%", 100.0 * coupling.model_error);
-  if (struts_.size() > 1) describeBody(inertiaOf(monitor->body(), placesOf(*monitor)), status);
-  for (const AntiRollBarFound& bar : coupling.bars)
-    status.addf("anti-roll bar " + struts_[bar.first] + " - " + struts_[bar.second], "%.4g and %.4g 1/s^2",
-                bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
-  for (std::size_t i = 0; i < struts_.size(); ++i)
-    for (std::size_t j = 0; j < struts_.size(); ++j)
-      if (i != j)
-        status.addf(struts_[i] + " moved by " + struts_[j], "%.3f +- %.3f", coupling.ratios[i][j],
-                    coupling.stddevs[i][j]);
-  for (std::size_t i = 0; i < struts_.size(); ++i)
-    for (const KnownForceCoefficients& force : coupling.forces)
-      status.addf(struts_[i] + " moved by " + force.name, "%.4g +- %.2g m/s^2 per unit", force.values[i],
-                  force.stddevs[i]);
-}
-
-namespace {
-
-const VehicleMonitor* monitorOf(const MessagePipeline* pipeline) {
-  return pipeline != nullptr ? pipeline->monitor() : nullptr;
+  return msg;
 }
 
 }  // namespace
+
+std::optional<CornerOutput> CornerOutput::of(ros::NodeHandle& node, const std::vector<std::string>& struts) {
+  Places places{};
+  for (std::size_t i = 0; i < kNumCorners; ++i) {
+    const auto corner = std::find(struts.begin(), struts.end(), kCornerNames[i]);
+    if (corner == struts.end()) return std::nullopt;
+    places[i] = static_cast<std::size_t>(corner - struts.begin());
+  }
+  return CornerOutput(node, places);
+}
+
+CornerOutput::CornerOutput(ros::NodeHandle& node, const Places& places)
+    : places_(places), publisher_(node.advertise<CornerComparison>("corners/comparison", 1, true)) {}
+
+// The estimates stay valid when the sensors fall silent, so a judgement without a new sample counts none of them.
+CornerComparisonReport CornerOutput::judge(const MessagePipeline* pipeline) {
+  std::array<CornerState, kNumCorners> corners;
+  if (pipeline == nullptr || pipeline->newest() == newest_) return compareCorners(corners);
+  newest_ = pipeline->newest();
+  for (std::size_t i = 0; i < kNumCorners; ++i)
+    if (const SuspensionMonitor* monitor = pipeline->strut(places_[i]))
+      corners[i] = {monitor->report().estimate, monitor->baseline()};
+  return compareCorners(corners);
+}
+
+void CornerOutput::publish(const MessagePipeline* pipeline) {
+  const CornerComparisonReport now = judge(pipeline);
+  if (now.level == last_.level && now.verdicts == last_.verdicts) confirmed_ = now;
+  last_ = now;
+  publisher_.publish(boost::make_shared<const CornerComparison>(toMsg(confirmed_, newest_)));
+}
+
+void CornerOutput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  status.summary(static_cast<unsigned char>(confirmed_.level), suspension_health_monitor::describe(confirmed_));
+  for (std::size_t i = 0; i < kNumCorners; ++i) {
+    const std::string name(kCornerNames[i]);
+    const auto add = [&](const char* part, const std::optional<double>& deviation) {
+      if (deviation) status.addf(name + part + " from the others [%]", "%+.1f", 100.0 * *deviation);
+    };
+    status.add(name, kVerdictNames[static_cast<std::size_t>(confirmed_.verdicts[i])]);
+    add(" damping", confirmed_.damping_deviation[i]);
+    add(" stiffness", confirmed_.stiffness_deviation[i]);
+  }
+}
 
 // Who advertises first decides how long the queue is: an Updater's own holds one message, and all of them publish at
 // once, so that the status of a strut would be lost behind that of the next.
@@ -145,14 +161,15 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
                                        const std::function<void(Status&)>& describe_input)
     : placement_(placement),
       struts_(options.strutNames()),
-      publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
+      forces_(options.forceNames()),
+      diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
+      coupling_(private_node.advertise<CouplingInUse>("coupling", 1, true)),
       coupling_log_(name + " coupling"),
-      coupling_(private_node, struts_, options.forceNames()),
       corners_(CornerOutput::of(node, struts_)),
       updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Coupling", [this](Status& status) {
-    coupling_.describe(monitorOf(pipeline_), whyNoMonitor(pipeline_), status);
+    describeCoupling(status);
     coupling_log_.note(status);
   });
   updater_.add("Input", describe_input);
@@ -160,19 +177,57 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
 }
 
 void VehicleDiagnostics::publish(const MessagePipeline* pipeline) {
-  coupling_.publish(monitorOf(pipeline), whyNoMonitor(pipeline),
-                    pipeline != nullptr ? toRosTime(pipeline->newest()) : ros::Time());
-  if (corners_) corners_->publish(pipeline);
   pipeline_ = pipeline;
+  publishCoupling();
+  if (corners_) corners_->publish(pipeline);
   updater_.force_update();
   pipeline_ = nullptr;
 }
 
+VehicleCoupling VehicleDiagnostics::coupling() const {
+  if (monitor() != nullptr) return couplingOf(*monitor(), struts_, forces_);
+  VehicleCoupling none;
+  none.reason = whyNoMonitor(pipeline_);
+  return none;
+}
+
+void VehicleDiagnostics::publishCoupling() {
+  CouplingInUse msg = toMsg(coupling(), monitor(), struts_, forces_);
+  if (told_ && saysTheSame(*told_, msg)) return;
+  if (pipeline_ != nullptr) msg.header.stamp = toRosTime(pipeline_->newest());
+  coupling_.publish(msg);
+  told_ = msg;
+}
+
+void VehicleDiagnostics::describeCoupling(Status& status) const {
+  const VehicleCoupling known = coupling();
+  if (!known) {
+    status.summary(DiagnosticStatus::STALE, (monitor() != nullptr ? "the drives so far " : "") + known.reason);
+    return;
+  }
+  status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
+  if (const std::string mistake = describeMistake(*monitor(), struts_); !mistake.empty())
+    status.mergeSummary(DiagnosticStatus::WARN, mistake);
+  status.addf("model error", "%.2g %%", 100.0 * known.model_error);
+  if (struts_.size() > 1) describeBody(inertiaOf(monitor()->body(), placesOf(*monitor())), status);
+  for (const AntiRollBarFound& bar : known.bars)
+    status.addf("anti-roll bar " + struts_[bar.first] + " - " + struts_[bar.second], "%.4g and %.4g 1/s^2",
+                bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    for (std::size_t j = 0; j < struts_.size(); ++j)
+      if (i != j)
+        status.addf(struts_[i] + " moved by " + struts_[j], "%.3f +- %.3f", known.ratios[i][j], known.stddevs[i][j]);
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    for (const KnownForceCoefficients& force : known.forces)
+      status.addf(struts_[i] + " moved by " + force.name, "%.4g +- %.2g m/s^2 per unit", force.values[i],
+                  force.stddevs[i]);
+}
+
 std::string VehicleDiagnostics::whyNoMonitor(const MessagePipeline* pipeline) const {
   if (pipeline == nullptr) return placement_.missing();
-  const VehicleMonitor* monitor = pipeline->monitor();
-  if (monitor == nullptr) return kMeasuringPeriod;
-  return "the drives so far " + suspension_health_monitor::whyNotCoupled(monitor->mistake(), struts_);
+  const VehicleMonitor* its = pipeline->monitor();
+  if (its == nullptr) return kMeasuringPeriod;
+  return "the drives so far " + suspension_health_monitor::whyNotCoupled(its->mistake(), struts_);
 }
 
 }  // namespace suspension_health_monitor

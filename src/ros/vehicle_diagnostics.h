@@ -4,13 +4,15 @@
 #include <ros/ros.h>
 #include <suspension_health_monitor/CouplingInUse.h>
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "corner_output.h"
 #include "message_pipeline.h"
+#include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "task_log.h"
@@ -19,33 +21,35 @@
 
 namespace suspension_health_monitor {
 
-/// What a vehicle's monitor knows of how the struts move one another: the latched topic ~coupling and a task of
-/// /diagnostics.
-class CouplingOutput {
+/// The four corners of a vehicle against each other: the latched topic corners/comparison and a task of /diagnostics.
+class CornerOutput {
  public:
-  /// @param struts, forces  their names.
-  CouplingOutput(ros::NodeHandle& private_node, const std::vector<std::string>& struts,
-                 const std::vector<std::string>& forces)
-      : struts_(struts), forces_(forces), publisher_(private_node.advertise<CouplingInUse>("coupling", 1, true)) {}
+  /// @param struts  the names of all struts.
+  /// @return nothing unless the four corners are among them.
+  static std::optional<CornerOutput> of(ros::NodeHandle& node, const std::vector<std::string>& struts);
 
-  /// Publishes what is known, if it is not what was published last.
-  /// @param monitor  nullptr: none yet, and then why.  @param stamp  of the newest sample.
-  void publish(const VehicleMonitor* monitor, const std::string& why_none, const ros::Time& stamp);
+  /// Judges the corners and publishes the newest verdict that two judgements in a row agreed on.
+  /// @param pipeline  nullptr: none yet.
+  void publish(const MessagePipeline* pipeline);
 
-  /// The task "Coupling".
-  void describe(const VehicleMonitor* monitor, const std::string& why_none,
-                diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  /// The task "Corners".
+  void describe(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
-  VehicleCoupling known(const VehicleMonitor* monitor, const std::string& why_none) const;
+  using Places = std::array<std::size_t, kNumCorners>;
 
-  std::vector<std::string> struts_, forces_;
+  CornerOutput(ros::NodeHandle& node, const Places& places);
+
+  CornerComparisonReport judge(const MessagePipeline* pipeline);
+
+  Places places_;  // of the corners among the struts
   ros::Publisher publisher_;
-  std::optional<CouplingInUse> last_;
+  Stamp newest_{};  // sample at the last judgement
+  CornerComparisonReport last_ = compareCorners({}), confirmed_ = last_;
 };
 
-/// What a live vehicle says as a whole: the tasks Coupling, Input and, with four corners, Corners of /diagnostics,
-/// ~coupling and corners/comparison.
+/// What a live vehicle says as a whole: the tasks Coupling, Input and, with four corners, Corners of /diagnostics; how
+/// the struts move one another as the latched topic ~coupling; and corners/comparison.
 class VehicleDiagnostics {
  public:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -62,11 +66,17 @@ class VehicleDiagnostics {
   std::string whyNoMonitor(const MessagePipeline* pipeline) const;
 
  private:
+  const VehicleMonitor* monitor() const { return pipeline_ != nullptr ? pipeline_->monitor() : nullptr; }
+  VehicleCoupling coupling() const;
+  void publishCoupling();
+  void describeCoupling(Status& status) const;
+
   const VehiclePlacement& placement_;
-  std::vector<std::string> struts_;  // their names
-  ros::Publisher publisher_;         // of all updaters, also of those of the struts
+  std::vector<std::string> struts_, forces_;  // their names
+  ros::Publisher diagnostics_;                // of all updaters, also of those of the struts
+  ros::Publisher coupling_;
+  std::optional<CouplingInUse> told_;  // the last ~coupling
   TaskLog coupling_log_;
-  CouplingOutput coupling_;
   std::optional<CornerOutput> corners_;
   const MessagePipeline* pipeline_ = nullptr;  // during publish() only
   diagnostic_updater::Updater updater_;

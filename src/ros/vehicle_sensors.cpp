@@ -1,12 +1,30 @@
 #include "vehicle_sensors.h"
 
-#include <array>
+#include <tf2/LinearMath/Matrix3x3.h>
+#include <tf2/LinearMath/Quaternion.h>
+
+#include <cmath>
 #include <stdexcept>
+
+#include "conversions.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using Place = VehicleStreams::Place;
+
+// The share of a sensor's range at which a reading counts as clipped. It is below the largest number that a sensor of
+// 12 bits can send, which is 0.9995 of its range.
+constexpr double kEndOfRange = 0.999;
+
+// Axes with a zero in the direction are left out of the sum, since a sensor may read NaN on an axis that it lacks.
+double along(const std::array<double, 3>& direction, const geometry_msgs::Vector3& v) {
+  double sum = 0.0;
+  if (direction[0] != 0.0) sum += direction[0] * v.x;
+  if (direction[1] != 0.0) sum += direction[1] * v.y;
+  if (direction[2] != 0.0) sum += direction[2] * v.z;
+  return sum;
+}
 
 VehicleStreams streamsAnywhere(VehicleLayout layout) {
   for (VehicleLayout::Strut& strut : layout.struts)
@@ -14,17 +32,92 @@ VehicleStreams streamsAnywhere(VehicleLayout layout) {
   return VehicleStreams(layout);
 }
 
+/// @return the frame's name without the slash that some drivers still put in front of it, as tf1 did: tf2 does not find
+/// such a name.
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+ImuMount mountOf(Place place, const ShellOptions& options, const tf2::BufferCore* transforms) {
+  if (place == Place::kRoad) return {options.road_axis, options.target_frame, std::nullopt, transforms};
+  if (place == Place::kUnsprung)
+    return {options.unsprung_axis, options.target_frame, options.unsprung_range, transforms};
+  return {options.sprung_axis, options.target_frame, options.sprung_range, transforms};
+}
+
 }  // namespace
+
+ImuMount::ImuMount(const std::string& axis, const std::string& target_frame, const std::optional<double>& range,
+                   const tf2::BufferCore* transforms)
+    : axes_{}, target_frame_(withoutSlash(target_frame)), range_(range), transforms_(transforms) {
+  // The two axes across the strut follow the upward one in the order x, y, z, which makes the three right-handed. If
+  // the upward one has a minus, one of the two must have it as well for them to stay so.
+  const auto up = static_cast<std::size_t>(axis.back() - 'x');
+  const double sign = axis.front() == '-' ? -1.0 : 1.0;
+  axes_[0][(up + 1) % 3] = 1.0;
+  axes_[1][(up + 2) % 3] = sign;
+  axes_[2][up] = sign;
+  directions_ = axes_;
+}
+
+std::optional<RejectReason> ImuMount::read(const sensor_msgs::Imu& imu, bool six_axes, std::vector<double>& values) {
+  if (imu.linear_acceleration_covariance[0] == -1.0) return RejectReason::kNotMeasured;
+  if (!target_frame_.empty() && imu.header.frame_id != frame_ && !findTransform(imu.header.frame_id))
+    return RejectReason::kNoTransform;
+  if (isClipped(imu.linear_acceleration)) return RejectReason::kClipped;
+  if (!six_axes) {
+    values.push_back(along(directions_[2], imu.linear_acceleration));
+    return std::nullopt;
+  }
+  if (imu.angular_velocity_covariance[0] == -1.0) return RejectReason::kNotMeasured;
+  for (const geometry_msgs::Vector3& v : {imu.linear_acceleration, imu.angular_velocity})
+    for (const double component : turned(v)) values.push_back(component);
+  return std::nullopt;
+}
+
+bool ImuMount::findTransform(const std::string& frame) {
+  const std::string source = withoutSlash(frame);
+  missing_ = source.empty() ? "(no frame_id)" : source;
+  if (source.empty() || !transforms_->canTransform(target_frame_, source, ros::Time())) return false;
+  const geometry_msgs::Quaternion q =
+      transforms_->lookupTransform(target_frame_, source, ros::Time()).transform.rotation;
+  const tf2::Matrix3x3 rotation(tf2::Quaternion(q.x, q.y, q.z, q.w));  // from the IMU's axes to those of the target
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const tf2::Vector3 axis(axes_[i][0], axes_[i][1], axes_[i][2]);
+    for (std::size_t j = 0; j < 3; ++j) directions_[i][j] = rotation.getColumn(static_cast<int>(j)).dot(axis);
+  }
+  frame_ = frame;
+  missing_.clear();
+  return true;
+}
+
+bool ImuMount::isClipped(const geometry_msgs::Vector3& acceleration) const {
+  if (!range_) return false;
+  const double end = kEndOfRange * *range_;
+  const Direction& up = directions_[2];
+  return (up[0] != 0.0 && std::abs(acceleration.x) >= end) || (up[1] != 0.0 && std::abs(acceleration.y) >= end) ||
+         (up[2] != 0.0 && std::abs(acceleration.z) >= end);
+}
+
+std::array<double, 3> ImuMount::turned(const geometry_msgs::Vector3& v) const {
+  return {along(directions_[0], v), along(directions_[1], v), along(directions_[2], v)};
+}
+
+BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {
+  const auto both = [this](const geometry_msgs::Vector3& v) -> std::array<double, 2> {
+    const std::array<double, 3> all = turned(v);
+    return {all[0], all[1]};
+  };
+  BodyMotion motion{toStamp(imu.header.stamp), both(imu.linear_acceleration), both(imu.angular_velocity)};
+  if (imu.linear_acceleration_covariance[0] == -1.0) motion.acceleration = {kUnknown, kUnknown};
+  if (imu.angular_velocity_covariance[0] == -1.0) motion.angular_rate = {kUnknown, kUnknown};
+  return motion;
+}
 
 VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions& options,
                                const tf2::BufferCore* transforms) {
-  const std::array<ImuMount, kMostStreams> mounts = ImuMount::of(options, transforms);
-  for (const VehicleStreams::Sensor& sensor : streams.sensors) {
-    const Side side = sensor.place == Place::kRoad       ? Side::kRoad
-                      : sensor.place == Place::kUnsprung ? Side::kUnsprung
-                                                         : Side::kSprung;
-    sensors_.push_back({sensor.place, mounts[indexOf(side)], sensor.fields, {}});
-  }
+  for (const VehicleStreams::Sensor& sensor : streams.sensors)
+    sensors_.push_back({sensor.place, mountOf(sensor.place, options, transforms), sensor.fields, {}});
   values_.reserve(6);
 }
 

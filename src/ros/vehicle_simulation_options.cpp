@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "model_file.h"
-#include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {

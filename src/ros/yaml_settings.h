@@ -3,7 +3,6 @@
 #include <string>
 
 #include "suspension_health_monitor/internal/option_table.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 

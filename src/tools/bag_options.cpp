@@ -3,10 +3,12 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include "../ros/model_file.h"
+#include "../ros/vehicle_sensors.h"
 #include "bag_file.h"
 #include "command.h"
 #include "suspension_health_monitor/internal/text.h"
@@ -16,42 +18,8 @@ namespace po = boost::program_options;
 
 namespace {
 
-/// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them.
-ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
-  ImuBags bags;
-  bags.reads_ahead = threadsOf(values) > 1;
-  bags.paths = values["bag"].as<std::vector<std::string>>();
-  bags.start = values["start"].as<double>();
-  if (values.count("end") != 0) bags.end = values["end"].as<double>();
-  if (!(bags.start >= 0.0 && bags.end > bags.start))
-    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
-                                " [s], must be 0 <= start < end");
-  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-  return bags;
-}
-
-}  // namespace
-
-void addBagOptions(po::options_description& description) {
-  auto add = description.add_options();
-  add("bag", po::value<std::vector<std::string>>()->required(), "bags, read one after the other");
-  add("config", po::value<std::string>()->default_value(""),
-      "YAML file like config/monitor.yaml, or a model that diagnose -o has written");
-  add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
-      "NAME=VALUE: any option of `suspension_bag options monitor`");
-  add("sprung-topic", po::value<std::string>()->default_value("/sprung/imu"), "Imu topic of the body");
-  add("unsprung-topic", po::value<std::string>()->default_value("/unsprung/imu"), "Imu topic of the wheel carrier");
-  add("road-topic", po::value<std::string>(), "Imu topic of the road under the tyre: identifies the tyre, too");
-  add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
-  add("end", po::value<double>(), "[s] after the beginning of each bag (its end)");
-  add("json", po::value<std::string>(), "write the result as JSON");
-  add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
-      "processor cores to use");
-  add(kVehicle, po::value<std::string>(),
-      "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
-  add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
-}
-
+/// @return the static transforms (/tf_static) of all bags.
+/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
 std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths) {
   constexpr const char* kTopic = "/tf_static";
   const auto transforms = std::make_shared<tf2::BufferCore>();
@@ -77,6 +45,107 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
     }
   }
   return transforms;
+}
+
+/// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them.
+ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
+  ImuBags bags;
+  bags.reads_ahead = threadsOf(values) > 1;
+  bags.paths = values["bag"].as<std::vector<std::string>>();
+  bags.start = values["start"].as<double>();
+  if (values.count("end") != 0) bags.end = values["end"].as<double>();
+  if (!(bags.start >= 0.0 && bags.end > bags.start))
+    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
+                                " [s], must be 0 <= start < end");
+  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
+  return bags;
+}
+
+VehicleLayout layoutOfTopics(const po::variables_map& values) {
+  std::vector<std::string> topics;
+  for (const std::string option : kTopicOptions)
+    if (const std::string name = option.substr(2); values.count(name) != 0)
+      topics.push_back(values[name].as<std::string>());
+  for (std::size_t i = 0; i < topics.size(); ++i)
+    if (topics[i].empty()) throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
+  if (topics[0] == topics[1])
+    throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + topics[0] + ", must differ");
+  VehicleLayout layout = VehicleLayout::ofOneStrut(false);
+  layout.struts.front().sprung_imu = topics[0];
+  layout.struts.front().unsprung_imu = topics[1];
+  if (topics.size() == 2) return layout;
+  if (topics[2] == topics[0] || topics[2] == topics[1])
+    throw std::invalid_argument("--road-topic " + topics[2] + " is one of the other two, must differ");
+  layout.road_imu = topics[2];
+  return layout;
+}
+
+/// Looks up the positions of struts that have a frame.
+void place(VehicleLayout& layout, ImuBags bags, const ShellOptions& options) {
+  if (!layout.hasFrames() || !layout.body_imu) return;
+  bags.transforms = readStaticTransforms(bags.paths);
+  bags.topics = {{*layout.body_imu, "body_imu"}};
+  std::optional<sensor_msgs::Imu> first;
+  const auto take = [&](std::size_t, const sensor_msgs::Imu& imu, Stamp) {
+    first = imu;
+    return false;
+  };
+  readTopics(bags, {take, {}});
+  if (!first) throw TooLittleError("the bags hold no message of body_imu, " + *layout.body_imu);
+  placeFrames(layout, *first, options, *bags.transforms);
+}
+
+}  // namespace
+
+void addBagOptions(po::options_description& description) {
+  auto add = description.add_options();
+  add("bag", po::value<std::vector<std::string>>()->required(), "bags, read one after the other");
+  add("config", po::value<std::string>()->default_value(""),
+      "YAML file like config/monitor.yaml, or a model that diagnose -o has written");
+  add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
+      "NAME=VALUE: any option of `suspension_bag options monitor`");
+  add("sprung-topic", po::value<std::string>()->default_value("/sprung/imu"), "Imu topic of the body");
+  add("unsprung-topic", po::value<std::string>()->default_value("/unsprung/imu"), "Imu topic of the wheel carrier");
+  add("road-topic", po::value<std::string>(), "Imu topic of the road under the tyre: identifies the tyre, too");
+  add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
+  add("end", po::value<double>(), "[s] after the beginning of each bag (its end)");
+  add("json", po::value<std::string>(), "write the result as JSON");
+  add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
+      "processor cores to use");
+  add(kVehicle, po::value<std::string>(),
+      "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
+  add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
+}
+
+AskedVehicle readVehicle(const po::variables_map& values) {
+  const std::string strut = values.count(kStrut) != 0 ? values[kStrut].as<std::string>() : "";
+  if (values.count(kVehicle) == 0) {
+    if (values.count(kStrut) != 0)
+      throw std::invalid_argument("--strut " + strut + " without --vehicle, which it is of");
+    return {layoutOfTopics(values), "", {""}, {0}, 0};
+  }
+  for (const std::string option : kTopicOptions)
+    if (const std::string name = option.substr(2); values.count(name) != 0 && !values[name].defaulted())
+      throw std::invalid_argument(option + " beside --vehicle, must be left out");
+  AskedVehicle vehicle;
+  vehicle.file = values[kVehicle].as<std::string>();
+  vehicle.layout = readVehicleFile(vehicle.file);
+  vehicle.names = namesOf(vehicle.layout.struts);
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i)
+    if (values.count(kStrut) == 0 || strut == vehicle.names[i]) vehicle.asked.push_back(i);
+  if (vehicle.asked.empty())
+    throw std::invalid_argument("--strut " + strut + ", must be one of " + join(vehicle.names));
+  if (values.count(kStrut) != 0) vehicle.only = vehicle.asked.front();
+  return vehicle;
+}
+
+void findSensors(ImuBags& bags, const ShellOptions& options, VehicleLayout& layout) {
+  place(layout, bags, options);
+  const VehicleStreams streams(layout);
+  bags.topics.clear();
+  for (const VehicleStreams::Sensor& sensor : streams.sensors)
+    bags.topics.push_back({sensor.topic, sensor.setting, sensor.place == VehicleStreams::Place::kForce,
+                           sensor.place != VehicleStreams::Place::kRoad});
 }
 
 int threadsOf(const po::variables_map& values) {

@@ -1,17 +1,53 @@
 #pragma once
 
 #include <boost/program_options.hpp>
-#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "../ros/vehicle_options.h"
-#include "asked_vehicle.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/record/motion_range.h"
 
 namespace suspension_health_monitor {
+
+inline constexpr const char* kVehicle = "vehicle";  ///< names of options
+inline constexpr const char* kStrut = "strut";
+
+/// The struts that a command is asked about: those of --vehicle, or the one of the topics, which is alone and has no
+/// name.
+struct AskedVehicle {
+  VehicleLayout layout;
+  std::string file;                 ///< of --vehicle; empty: a strut alone
+  std::vector<std::string> names;   ///< of the struts
+  std::vector<std::size_t> asked;   ///< their places
+  std::optional<std::size_t> only;  ///< place of the strut of --strut, or of the one that is alone
+
+  bool isStrutAlone() const { return file.empty(); }
+
+  /// @return what is written before a strut; nothing where it is alone.
+  std::string prefix(std::size_t strut, const char* after, const char* before = "") const {
+    return isStrutAlone() ? "" : before + names[strut] + after;
+  }
+
+  /// @return where a strut's results are among those of the command.
+  nlohmann::json& resultsOf(std::size_t strut, nlohmann::json& whole) const {
+    return isStrutAlone() ? whole : whole["struts"][names[strut]];
+  }
+};
+
+/// @throws std::invalid_argument  as readVehicleFile(), for topics beside a vehicle or twice the same, and for a strut
+/// that is none of it.
+AskedVehicle readVehicle(const boost::program_options::variables_map& values);
+
+/// Finds the sensors of a vehicle in bags.
+/// @param bags  whose topics become those of VehicleStreams::sensors.
+/// @param layout  whose struts with a frame get their position, by the static transforms of the bags.
+/// @throws InputError, TooLittleError  as readTopics().
+/// @throws std::invalid_argument  if a frame has no static transform.
+void findSensors(ImuBags& bags, const ShellOptions& options, VehicleLayout& layout);
 
 /// What every subcommand that reads bags understands.
 struct BagOptions {
@@ -26,19 +62,12 @@ struct BagOptions {
   double period() const { return *settings.common.monitor.sample_period; }  ///< [s], of readBagOptions()
 };
 
-inline constexpr const char* kVehicle = "vehicle";  ///< names of options
-inline constexpr const char* kStrut = "strut";
-
 /// Adds the common options to a subcommand's own.
 void addBagOptions(boost::program_options::options_description& description);
 
 /// @return how many processor cores may be used.
 /// @throws std::invalid_argument  as command.h.
 int threadsOf(const boost::program_options::variables_map& values);
-
-/// @return the static transforms (/tf_static) of all bags.
-/// @throws InputError  naming the bag: unreadable, or no tf2_msgs/TFMessage in it on that topic.
-std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<std::string>& paths);
 
 /// @return the mean spacing of the stamps at the beginning of the bags, of the slowest topic that is needed [s].
 /// @throws InputError  as readTopics(), or it is no sample_period.  @throws TooLittleError  if there are too few

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <iostream>
 #include <set>
-#include <stdexcept>
 
 #include "../ros/yaml_settings.h"
 #include "suspension_health_monitor/internal/text.h"
@@ -31,6 +30,13 @@ std::string suggestOption(const std::string& unknown, const po::options_descript
   for (const auto& option : options.options())
     if (option->long_name() != positional) names.push_back("--" + option->long_name());
   return suggestNearest(unknown, names);
+}
+
+/// A word as a shell takes it.
+std::string shellQuoted(const std::string& word) {
+  const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+:=,@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  return "'" + boost::replace_all_copy(word, "'", "'\\''") + "'";
 }
 
 /// Parses, and says what is wrong in the words of the usage: nobody types --bag.
@@ -75,12 +81,6 @@ std::optional<po::variables_map> parse(const Arguments& arguments, const std::st
   for (const std::string& word : arguments) line += ' ' + shellQuoted(word);
   values.emplace(kCommandLine, po::variable_value(line, true));
   return values;
-}
-
-std::string shellQuoted(const std::string& word) {
-  const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+:=,@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  return "'" + boost::replace_all_copy(word, "'", "'\\''") + "'";
 }
 
 OptionMap gatherOptions(const po::variables_map& values) {

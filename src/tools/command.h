@@ -55,9 +55,6 @@ std::optional<boost::program_options::variables_map> parse(const Arguments& argu
 /// Among the parsed values: what was typed, as text.
 inline constexpr const char* kCommandLine = "command line";
 
-/// A word as a shell takes it.
-std::string shellQuoted(const std::string& word);
-
 /// @return the settings of the file --config, if there is one, and of --set NAME=VALUE, which override them.
 /// @throws std::invalid_argument  naming what is wrong.
 OptionMap gatherOptions(const boost::program_options::variables_map& values);

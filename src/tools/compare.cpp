@@ -6,7 +6,7 @@
 #include "command.h"
 #include "json_of.h"
 #include "long_work.h"
-#include "recorded_search.h"
+#include "recorded_drives.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/text.h"
 
@@ -98,7 +98,7 @@ void printComparison(const Comparison& comparison) {
 
 nlohmann::json toJson(const Comparison& comparison) {
   using nlohmann::json;
-  json model{{"parameters", jsonOf(comparison.model)}, {"fitted", !comparison.stddev.empty()}};
+  json model{{"fitted", !comparison.stddev.empty()}};
   addNumbers(comparison.model, model);
   json free_run = jsonOf(comparison.free_run), one_step;
   free_run["held_out_rmse"] = comparison.held_out_rmse ? json(*comparison.held_out_rmse) : json();

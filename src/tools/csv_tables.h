@@ -3,10 +3,9 @@
 #include <cstdio>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "asked_vehicle.h"
+#include "bag_options.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

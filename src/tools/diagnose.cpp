@@ -2,11 +2,13 @@
 
 #include "../ros/model_file.h"
 #include "command.h"
+#include "json_of.h"
 #include "long_work.h"
-#include "recorded_search.h"
+#include "recorded_drives.h"
 #include "report_page.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
+#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
@@ -14,6 +16,98 @@ namespace {
 
 namespace po = boost::program_options;
 using nlohmann::json;
+
+constexpr std::size_t kShownCandidates = 8;
+
+json standardDeviations(const FittedModel& fit) {
+  json result = json::object();
+  auto stddev = fit.stddev.begin();
+  for (const ModelNumber& number : numbersOf(fit.model)) result[number.name] = *stddev++;
+  return result;
+}
+
+void printFit(const FittedModel& fit) {
+  auto stddev = fit.stddev.begin();
+  for (const ModelNumber& number : numbersOf(fit.model)) {
+    if (number.kind == ModelNumber::Kind::kStrut)
+      std::printf("  %-15s", number.symbol == "b1" ? "damping/mass" : "stiffness/mass");
+    else if (number.kind == ModelNumber::Kind::kShape)
+      std::printf("    %s =", number.symbol.c_str());
+    else
+      std::printf("  %s  c =", number.name.c_str());
+    std::printf(" %.5g +- %.2g %s\n", number.value, *stddev++, number.unit.c_str());
+  }
+  if (!fit.all_samples)
+    std::printf("  The fit to all samples failed: these are the numbers of the fit to two thirds of them.\n");
+}
+
+}  // namespace
+
+void printSearch(const Diagnosis& found) {
+  std::printf("%s\n", found.summary.c_str());
+  if (!found.remainder.empty()) std::printf("%s\n", found.remainder.c_str());
+  for (const std::vector<std::string>& group : found.indistinguishable)
+    std::printf("These drives cannot tell apart: %s.\n", join(group, ", ").c_str());
+  if (!found.suggested_drive.empty()) std::printf("%s\n", found.suggested_drive.c_str());
+  std::printf("\nmodel as it is: held-out rmse %.4g m/s^2, fit %.1f %%, noise floor about %.4g m/s^2\n",
+              found.base.held_out_rmse, found.base_fit_percent, found.noise_floor);
+  std::printf("\nadded alone                    held-out rmse   error removed   significant\n");
+  bool all_fitted = true;
+  for (std::size_t i = 0; i < std::min(kShownCandidates, found.ranking.size()); ++i) {
+    const RankedModel& ranked = found.ranking[i];
+    if (ranked.failure != FitFailure::kNone) {
+      std::printf("%-30s             -                -   no: %s\n", join(ranked.effects, " + ").c_str(),
+                  reasonOf(ranked.failure));
+      continue;
+    }
+    all_fitted = all_fitted && ranked.fitted;
+    std::printf("%-30s %c%12.4g %14.1f %%   %s\n", join(ranked.effects, " + ").c_str(), ranked.fitted ? ' ' : '~',
+                ranked.held_out_rmse, ranked.error_removed_percent, ranked.significant ? "yes" : "no");
+  }
+  if (!all_fitted) std::printf("~ by the linear response only: far behind, not fitted\n");
+  if (!found.extended) return;
+  std::printf("\nwith %s: held-out rmse %.4g m/s^2, fit %.1f %%\n", join(found.selected, " and ").c_str(),
+              found.extended->held_out_rmse, found.extended_fit_percent);
+  printFit(*found.final_fit);
+}
+
+void addNumbers(const StrutModel& model, json& into) {
+  into["parameters"] = jsonOf(model);
+  into["coefficients"] = into["shapes"] = json::object();
+  for (const ModelNumber& number : numbersOf(model)) {
+    if (number.kind == ModelNumber::Kind::kCoefficient) into["coefficients"][number.name] = number.value;
+    if (number.kind == ModelNumber::Kind::kShape) into["shapes"][number.name] = number.value;
+  }
+}
+
+json toJson(const Diagnosis& found) {
+  json ranking = json::array();
+  for (const RankedModel& ranked : found.ranking) {
+    json row = jsonOf(ranked);
+    row.erase("model");  // its numbers follow by name
+    if (ranked.failure != FitFailure::kNone) row["failure"] = reasonOf(ranked.failure);
+    addNumbers(ranked.model, row);
+    ranking.push_back(row);
+  }
+  json whole = jsonOf(found);
+  whole["ranking"] = ranking;
+  whole["base"] = {{"held_out_rmse", found.base.held_out_rmse},
+                   {"fit_percent", found.base_fit_percent},
+                   {"parameters", jsonOf(found.base.model)}};
+  if (!found.remainder.empty()) whole["remainder"] = found.remainder;
+  if (found.extended) {
+    whole["explained_share"] = found.explained_share;
+    json extended{{"held_out_rmse", found.extended->held_out_rmse},
+                  {"fit_percent", found.extended_fit_percent},
+                  {"fitted_to_all_samples", found.final_fit->all_samples},
+                  {"stddevs", standardDeviations(*found.final_fit)}};
+    addNumbers(found.final_fit->model, extended);
+    whole["extended"] = extended;
+  }
+  return whole;
+}
+
+namespace {
 
 /// Tells people which candidates were not tried.
 /// @return the same for programs.
@@ -87,7 +181,7 @@ void search(const po::variables_map& values) {
   if (file) file->commit(whole.dump(2) + '\n');
   if (model) model->commit(modelText(found, vehicle));
   const ImuBags& bags = asked.options.bags;
-  if (page) page->write(found, searching, changes, {fileNames(bags.paths), originOf(values, bags.allTopics())});
+  if (page) page->write(found, searching, whole, {fileNames(bags.paths), originOf(values, bags.allTopics())});
 }
 
 }  // namespace

@@ -9,35 +9,26 @@
 namespace suspension_health_monitor {
 namespace {
 
-/// What is told of one effect.
-struct Row {
-  std::string name, law, unit, shapes, finding, advice;
-};
-
-std::vector<Row> rowsOf(const EffectLibrary& library) {
-  std::vector<Row> rows;
-  for (const ForceEffect& effect : library.forces) {
-    std::vector<std::string> shapes;
-    for (const ShapeParameter& shape : effect.shapes) shapes.push_back(shape.name + " [" + shape.unit + "]");
-    rows.push_back({effect.name, effect.law, effect.unit, join(shapes), effect.finding, effect.advice});
-  }
-  for (const MeasurementEffect& effect : library.readings) {
-    std::vector<std::string> units;
-    for (const MeasurementEffect::Coefficient& c : effect.coefficients)
-      units.push_back(effect.coefficients.size() == 1 ? c.unit : c.name + " [" + c.unit + "]");
-    rows.push_back({effect.name, effect.law, join(units), "", effect.finding, effect.advice});
-  }
-  return rows;
+/// "gap [m], width [m]"
+std::string withUnits(const std::vector<EffectLibrary::Description::NameAndUnit>& numbers) {
+  std::vector<std::string> all;
+  for (const auto& [name, unit] : numbers) all.push_back(name + " [" + unit + "]");
+  return join(all);
 }
 
-void printMarkdown(const std::vector<Row>& rows) {
+/// @return the unit of the one coefficient, or of each.
+std::string unitOf(const EffectLibrary::Description& effect) {
+  return effect.coefficients.size() == 1 ? effect.coefficients.front().second : withUnits(effect.coefficients);
+}
+
+void printMarkdown(const std::vector<EffectLibrary::Description>& effects) {
   std::printf(
       "| name | law | unit of c | shape | what a workshop would find | design or wear, and what to check |\n"
       "|---|---|---|---|---|---|\n");
-  for (const Row& row : rows)
-    std::printf("| `%s` | %s | %s | %s | %s | %s |\n", row.name.c_str(),
-                boost::replace_all_copy(row.law, "|", "\\|").c_str(), row.unit.c_str(), row.shapes.c_str(),
-                row.finding.c_str(), row.advice.c_str());
+  for (const EffectLibrary::Description& effect : effects)
+    std::printf("| `%s` | %s | %s | %s | %s | %s |\n", effect.name.c_str(),
+                boost::replace_all_copy(effect.law, "|", "\\|").c_str(), unitOf(effect).c_str(),
+                withUnits(effect.shapes).c_str(), effect.finding.c_str(), effect.advice.c_str());
 }
 
 constexpr std::size_t kWidth = 76;  // of a terminal, less the indent
@@ -58,14 +49,15 @@ void printWrapped(const std::string& text) {
   finish();
 }
 
-void printForTerminal(const std::vector<Row>& rows) {
+void printForTerminal(const std::vector<EffectLibrary::Description>& effects) {
   std::printf("name\n%slaw; [unit] of c; shape\n%swhat a workshop would find\n%sdesign or wear, and what to check\n",
               kIndent, kIndent, kIndent);
-  for (const Row& row : rows) {
-    const std::string unit = row.unit.find('[') == std::string::npos ? '[' + row.unit + ']' : row.unit;
-    std::printf("\n%s\n%s%s\n", row.name.c_str(), kIndent, join({row.law, unit, row.shapes}, "; ").c_str());
-    printWrapped(row.finding);
-    printWrapped(row.advice);
+  for (const EffectLibrary::Description& effect : effects) {
+    const std::string unit = effect.coefficients.size() == 1 ? '[' + unitOf(effect) + ']' : unitOf(effect);
+    std::printf("\n%s\n%s%s\n", effect.name.c_str(), kIndent,
+                join({effect.law, unit, withUnits(effect.shapes)}, "; ").c_str());
+    printWrapped(effect.finding);
+    printWrapped(effect.advice);
   }
 }
 
@@ -77,11 +69,8 @@ void effects(const Arguments& arguments) {
   description.add_options()("markdown", "as the table of doc/effects.md");
   const auto values = parse(arguments, "effects [--effects-file FILE] [--markdown]", description);
   if (!values) return;
-  const std::vector<Row> rows = rowsOf(readEffects(*values));
-  if (values->count("markdown") != 0)
-    printMarkdown(rows);
-  else
-    printForTerminal(rows);
+  const std::vector<EffectLibrary::Description> all = readEffects(*values).describe();
+  values->count("markdown") != 0 ? printMarkdown(all) : printForTerminal(all);
 }
 
 }  // namespace suspension_health_monitor

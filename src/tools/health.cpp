@@ -7,12 +7,14 @@
 #include "command.h"
 #include "csv_tables.h"
 #include "html_page.h"
+#include "json_of.h"
 #include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/text.h"
-#include "suspension_health_monitor/internal/wording/recording_sentences.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -47,20 +49,11 @@ struct HealthFiles {
 void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
   const StrutEstimate& estimate = moment.estimate;
   if (table.isOf(strut))
-    std::fprintf(table.beginLine(strut, moment.stamp), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n",
-                 nameOf(moment.level), boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(),
-                 estimate.damping_to_mass, estimate.stiffness_to_mass, estimate.damping_to_mass_stddev,
-                 estimate.stiffness_to_mass_stddev, moment.offset);
+    std::fprintf(table.beginLine(strut, moment.time), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level),
+                 boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(), estimate.damping_to_mass,
+                 estimate.stiffness_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass_stddev,
+                 moment.offset);
   if (page) courses[strut].add({moment, judged_by});
-}
-
-json listOf(const std::vector<HealthMoment>& moments) {
-  json list = json::array();
-  for (const HealthMoment& moment : moments) {
-    list.push_back(toJson(moment));
-    list.back()["after"] = toSeconds(moment.elapsed);
-  }
-  return list;
 }
 
 json toJson(const HealthCourse& course) {
@@ -81,30 +74,87 @@ json toJson(const HealthCourse& course) {
   return {{"time", time}, {"damping", shortened(damping)}, {"stiffness", shortened(stiffness)}};
 }
 
-/// What the scripts of the page expect of a strut.
-json findingsOf(const RecordedMonitor& recorded, std::size_t strut, const std::string& reference,
-                const std::vector<RecordedMonitor::Recording>& recordings) {
+bool isDelayed(const StrutEstimate& estimate) {
+  constexpr double kBeyondDoubt = 3.0;  // standard deviations
+  return std::abs(estimate.delay) > kBeyondDoubt * estimate.delay_stddev && estimate.explained > kNearlyAll;
+}
+
+void printBlocks(const StrutEstimate& estimate, const std::optional<double>& mass) {
+  printResult("estimate", estimate, mass);
+  if (estimate.friction)
+    std::printf("    dry friction %.3g +- %.1g m/s^2\n", estimate.friction->force, estimate.friction->stddev);
+  if (isDelayed(estimate))
+    std::printf("    the wheel carrier's readings are stamped %.3g +- %.1g ms late\n", 1e3 * estimate.delay,
+                1e3 * estimate.delay_stddev);
+  if (!std::isnan(estimate.age))
+    std::printf("    explains %.1f %% of the body's motion, from %.3g s of data, on average %.3g s old\n",
+                100.0 * estimate.explained, estimate.window, estimate.age);
+}
+
+void printRows(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
+  printResult(name, estimate, mass);
+  if (!std::isnan(estimate.offset))
+    std::printf("    offset of the wheel carrier's IMU against the body's %.3g m/s^2\n", estimate.offset);
+}
+
+/// A line per change of level, then the times, and the estimates at the end.
+void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference) {
+  std::printf("judged by %s\n\n", reference.c_str());
+  std::printf("%15s  %10s  %-5s  %s\n", "time [s]", "after [s]", "level", "reason");
+  for (const HealthMoment& event : log.events())
+    std::printf("%15.2f  %10.2f  %-5s  %s\n", toSeconds(event.time), toSeconds(event.elapsed), nameOf(event.level),
+                event.message.c_str());
+  std::printf("\nlevel    time [s]   share   events\n");
+  const double covered = toSeconds(log.elapsed());
+  for (const HealthLevel level : kHealthLevels) {
+    const double seconds = toSeconds(log.duration(level));
+    std::printf("%-5s  %10.2f  %4.0f %%  %7zu\n", nameOf(level), seconds,
+                covered > 0.0 ? 100.0 * seconds / covered : 0.0, log.count(level));
+  }
+  std::printf("early warnings %zu", log.earlyWarnings().size());
+  if (!log.earlyWarnings().empty()) std::printf(", the first at %.2f s", toSeconds(log.earlyWarnings().front().time));
+  const HealthMoment end = log.latest();
+  std::printf("\n\nat the end %s: %s\n", nameOf(end.level), end.message.c_str());
+  printBlocks(monitor.report().estimate, monitor.options().sprung_mass);
+  printRows("LS", monitor.report().ls, monitor.options().sprung_mass);
+  printRows("LA", monitor.report().la, monitor.options().sprung_mass);
+}
+
+json toJson(const HealthLog& log, const SuspensionMonitor& monitor) {
+  json result{{"events", jsonOf(log.events())},
+              {"end", jsonOf(log.latest())},
+              {"warn_events", log.count(HealthLevel::kWarn)},
+              {"error_events", log.count(HealthLevel::kError)},
+              {"early_warnings", log.earlyWarnings().size()}};
+  for (const HealthLevel level : kHealthLevels) result["seconds"][nameOf(level)] = toSeconds(log.duration(level));
+  const ModelReport& end = monitor.report();
+  for (const auto& [name, estimate] : {std::pair("estimate", &end.estimate), {"ls", &end.ls}, {"la", &end.la}})
+    result[name] = toJson(*estimate);
+  return result;
+}
+
+/// What the page has of a strut.
+/// @param result  as --json has it.
+json findingsOf(const RecordedMonitor& recorded, std::size_t strut, const HealthCourse& course,
+                const std::vector<RecordedMonitor::Recording>& recordings, json result) {
   const SuspensionMonitor& monitor = recorded.strut(strut);
   const HealthLog& log = recorded.log(strut);
   const MonitorSettings& settings = monitor.options();
   const double duration = toSeconds(log.elapsed());
-  const std::vector<std::string> names = namesOf(recordings);
   json begins = json::array();
   for (const auto& [name, from] : recordings) begins.push_back({{"name", name}, {"from", toSeconds(from)}});
-  return {{"strut", recorded.vehicle().names[strut]},
-          {"source", sourceOf(names, duration, monitor.period())},
-          {"horizon", monitor.horizonSamples() * monitor.period()},
-          {"judged_by", reference},
-          {"recordings", begins},
-          {"duration", duration},
-          {"seconds", secondsJson(log)},
-          {"events", listOf(log.events())},
-          {"end", toJson(log.latest())},
-          {"early_warnings", listOf(log.earlyWarnings())},
-          {"thresholds",
-           {{"damping", {settings.damping_warn, settings.damping_error}},
-            {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
-          {"estimates", estimatesJson(monitor)}};
+  result.update({{"strut", recorded.vehicle().names[strut]},
+                 {"source", sourceOf(namesOf(recordings), duration, monitor.period())},
+                 {"horizon", monitor.horizonSamples() * monitor.period()},
+                 {"judged_by", recorded.reference(strut)},
+                 {"recordings", begins},
+                 {"duration", duration},
+                 {"early_warnings", jsonOf(log.earlyWarnings())},
+                 {"thresholds",
+                  {{"damping", {settings.damping_warn, settings.damping_error}},
+                   {"stiffness", {settings.stiffness_warn, settings.stiffness_error}}}},
+                 {"course", toJson(course)}});
+  return result;
 }
 
 void watchBags(const po::variables_map& values) {
@@ -119,10 +169,9 @@ void watchBags(const po::variables_map& values) {
   const std::vector<RecordedMonitor::Recording> recordings = recorded.read();
   json whole = wholeJson(vehicle, recorded.coupling(), recorded.gaps()), struts = json::array();
   for (const std::size_t i : vehicle.asked) {
-    vehicle.resultsOf(i, whole).update(toJson(recorded.log(i), recorded.strut(i)));
-    if (!files.page) continue;
-    struts.push_back(findingsOf(recorded, i, recorded.reference(i), recordings));
-    struts.back()["course"] = toJson(files.courses[i]);
+    const json result = toJson(recorded.log(i), recorded.strut(i));
+    vehicle.resultsOf(i, whole).update(result);
+    if (files.page) struts.push_back(findingsOf(recorded, i, files.courses[i], recordings, result));
   }
   if (files.findings) files.findings->commit(whole.dump(2) + '\n');
   if (files.csv) files.csv->commit();

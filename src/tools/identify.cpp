@@ -7,6 +7,7 @@
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
+#include "suspension_health_monitor/internal/digest.h"
 #include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
@@ -145,11 +146,7 @@ struct Nominal {
   }
 
   std::string text(const po::variables_map& values, const BagOptions& options) const {
-    const OptionMap given = givenSettings(values);
-    const std::vector<std::string> drives = fileNames(options.bags.paths);
-    if (!options.vehicle.only) return settingsOf(struts, given, drives);
-    const auto& [name, strut] = *struts.begin();
-    return settingsOf(strut, settingsFor(name, given), drives);
+    return settingsOf(struts, options.vehicle.only.has_value(), givenSettings(values), fileNames(options.bags.paths));
   }
 };
 

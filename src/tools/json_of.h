@@ -11,7 +11,8 @@
 
 namespace suspension_health_monitor {
 
-/// @return a result by the names of its fields, of matrices the rows; what it does not have is left out.
+/// @return a result by the names of its fields, of matrices the rows, of stamps the seconds, of levels and verdicts the
+/// name; what it does not have is left out.
 template <class Value>
 nlohmann::json jsonOf(const Value& value);
 
@@ -47,6 +48,10 @@ nlohmann::json jsonOf(const Value& value) {
       for (Eigen::Index j = 0; j < value.cols(); ++j) rows.back().push_back(value(i, j));
     }
     return rows;
+  } else if constexpr (std::is_same_v<Value, Stamp>) {
+    return toSeconds(value);
+  } else if constexpr (std::is_enum_v<Value>) {
+    return nameOf(value);
   } else {
     return value;
   }

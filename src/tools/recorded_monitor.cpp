@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "../ros/conversions.h"
+#include "../ros/live_model.h"
 #include "command.h"
 #include "recorded_drives.h"
 #include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
-#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {

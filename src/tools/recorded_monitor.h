@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "../ros/live_model.h"
 #include "../ros/message_pipeline.h"
 #include "strut_files.h"
 #include "suspension_health_monitor/internal/monitor/health_log.h"

@@ -1,86 +1,113 @@
 #include "report_page.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <utility>
 
-#include "recorded_search.h"
+#include "json_of.h"
+#include "recorded_drives.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 using nlohmann::json;
+
+static void to_json(json& into, const PartialResidualBin& bin) {
+  into = {{"at", bin.at}, {"mean", bin.mean}, {"deviation", bin.deviation}, {"law", bin.law}, {"count", bin.count}};
+}
+
+NLOHMANN_JSON_SERIALIZE_ENUM(ForceVariable, {{ForceVariable::kTravel, "travel"},
+                                             {ForceVariable::kTravelRate, "travel_rate"},
+                                             {ForceVariable::kTime, "time"}})
+
+namespace {
+
+/// A model's numbers by name.
+json valuesOf(const StrutModel& model, const std::vector<double>& stddevs) {
+  json values;
+  auto stddev = stddevs.begin();
+  for (const ModelNumber& number : numbersOf(model)) {
+    values[number.name] = {{"value", number.value}};
+    if (stddev != stddevs.end()) values[number.name]["stddev"] = *stddev++;
+  }
+  return values;
+}
+
+/// The numbers of the model that was found, each before and after with its standard deviation.
+json parametersJson(const ReportContent& content) {
+  json values{{"before", valuesOf(content.before.model, content.before.stddev)}};
+  if (const auto& fit = content.found.final_fit) values["after"] = valuesOf(fit->model, fit->stddev);
+  json rows = jsonOf(numbersOf(content.found.model()));
+  for (json& row : rows)
+    for (const auto& [when, numbers] : values.items())
+      if (const auto its = numbers.find(row["name"].get<std::string>()); its != numbers.end()) row[when] = *its;
+  return rows;
+}
+
+constexpr int kLawPoints = 240;
+
+/// The law over the range that was seen.  @pre force.lawAt() may be called.
+json curveOf(const PartialResidual& force) {
+  json at = json::array(), law = json::array();
+  if (force.curve.size() > 1)
+    for (int i = 0; i <= kLawPoints; ++i) {
+      const double first = force.curve.front().at, last = force.curve.back().at;
+      at.push_back(first + (last - first) * i / kLawPoints);
+      law.push_back(force.lawAt(at.back()));
+    }
+  return {{"at", at}, {"law", law}};
+}
+
+json forceJson(const PartialResidual& force) {
+  json result{{"effect", force.effect.effect.name}, {"law", force.effect.effect.law}, {"variables", force.variables}};
+  if (force.variables.size() == 2)
+    result.update(
+        {{"edges", json::array({force.grid.first_edges, force.grid.second_edges})}, {"cells", force.grid.cells}});
+  else if (force.hasMemory())
+    result["branches"] =
+        json::array({{{"name", "compressing"}, {"bins", force.curve}}, {{"name", "extending"}, {"bins", force.back}}});
+  else
+    result.update({{"branches", json::array({{{"name", ""}, {"bins", force.curve}}})}, {"curve", curveOf(force)}});
+  return result;
+}
+
+/// The force of every effect that was found, as it was seen and by its law.
+json forcesJson(const ReportContent& content) {
+  json forces = json::array();
+  if (content.after == nullptr) return forces;
+  const std::vector<std::string>& added = content.found.selected;
+  for (const PartialResidual& force : content.after->forces)
+    if (std::find(added.begin(), added.end(), force.effect.effect.name) != added.end())
+      forces.push_back(forceJson(force));
+  return forces;
+}
+
+/// What the page tells of every candidate, by name.
+json effectsJson(const EffectLibrary& library) {
+  json effects;
+  for (const EffectLibrary::Description& effect : library.describe()) effects[effect.name] = jsonOf(effect);
+  return effects;
+}
 
 json findingsOf(const ReportContent& content) {
   double duration = 0.0;
   for (const ComparedSegment& segment : content.before.segments)
     duration += static_cast<double>(segment.size()) * content.period;
-  const std::string strut = content.vehicle ? content.vehicle->strut + " in " : "";
   json findings{{"search", toJson(content.found)},
-                {"source", strut + sourceOf(content.source.drive_names, duration, content.period)},
-                {"change", content.source.change},
+                {"source", sourceOf(content.source.drive_names, duration, content.period)},
                 {"effects", effectsJson(content.library)},
                 {"parameters", parametersJson(content)},
                 {"drives", drivesJson(content)},
                 {"before", shortened(toJson(content.before))},
                 {"forces", shortened(forcesJson(content))},
-                {"adding", addingJson(content)},
+                {"bags", content.source.drive_names},
+                {"model_file", toYaml(content.found.model())},
                 {"origin", content.source.origin}};
   findings["origin"]["from"] = toSeconds(content.found.from);
   findings["origin"]["to"] = toSeconds(content.found.to);
   if (content.after != nullptr) findings["after"] = shortened(toJson(*content.after));
-  if (const InVehicle* vehicle = content.vehicle)
-    findings["vehicle"] = {{"strut", vehicle->strut}, {"bars", vehicle->bars}, {"has_page", vehicle->has_page}};
   return findings;
-}
-
-/// @param has_page  of its own, to be opened.
-json strutJson(const VehicleLayout::Strut& strut, std::size_t place, const VehicleDiagnosis& found, bool has_page) {
-  const Diagnosis& its = found.struts[place];
-  json result{{"name", strut.name}, {"has_page", has_page}};
-  if (strut.position) result["position"] = *strut.position;
-  if (!its) {
-    result["verdict"] = "cannot_tell";
-    result["reason"] = its.reason;
-    return result;
-  }
-  result["verdict"] = nameOf(found.verdictOn(place));
-  result["selected"] = found.selected(place);
-  result["indistinguishable"] = its.indistinguishable;
-  result["damping_to_mass"] = its.model().damping_to_mass;
-  result["stiffness_to_mass"] = its.model().stiffness_to_mass;
-  result["error_before"] = its.base.held_out_rmse;
-  if (its.extended) result["error_after"] = its.extended->held_out_rmse;
-  result["noise_floor"] = its.noise_floor;
-  return result;
-}
-
-json barsJson(const VehicleCoupling& coupling) {
-  json bars = json::array();
-  for (const AntiRollBarFound& bar : coupling.bars)
-    bars.push_back({{"struts", {bar.first, bar.second}},
-                    {"stiffness_to_mass", {bar.first_stiffness_to_mass, bar.second_stiffness_to_mass}}});
-  return bars;
-}
-
-json forcesJson(const VehicleCoupling& coupling) {
-  json forces = json::array();
-  for (const KnownForceCoefficients& force : coupling.forces)
-    forces.push_back({{"name", force.name}, {"coefficients", force.values}, {"stddevs", force.stddevs}});
-  return forces;
-}
-
-/// The struts that bars tie one to.
-std::vector<std::string> partnersOf(std::size_t place, const VehicleCoupling& coupling,
-                                    const std::vector<std::string>& names) {
-  std::vector<std::string> partners;
-  for (const AntiRollBarFound& bar : coupling.bars) {
-    if (bar.first == place) partners.push_back(names[bar.second]);
-    if (bar.second == place) partners.push_back(names[bar.first]);
-  }
-  return partners;
 }
 
 }  // namespace
@@ -95,8 +122,8 @@ ReportPage::ReportPage(const std::string& folder, const AskedVehicle& vehicle) :
     struts_.try_emplace(i, (std::filesystem::path(folder) / vehicle.names[i]).string());
 }
 
-void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options,
-                            const std::string& change, PageSource source) {
+void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options, json& whole,
+                            const PageSource& source) {
   const Diagnosis& found = all.struts[place];
   const std::vector<Drive>& drives = all.drives[place];
   CompareOptions comparing;
@@ -114,36 +141,33 @@ void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, cons
     comparing.fit = false;
     after = compare(drives, comparing);
   }
-  source.change = change;
-  const InVehicle in{vehicle_.names[place], vehicle_.file, partnersOf(place, all.coupling, vehicle_.names),
-                     page_.has_value()};
-  struts_.at(place).write(searchTemplate(),
-                          findingsOf({found, options.candidates, *options.sample_period, source, before,
-                                      after && *after ? &*after : nullptr, vehicle_.isStrutAlone() ? nullptr : &in}));
+  json findings = findingsOf(
+      {found, options.candidates, *options.sample_period, source, before, after && *after ? &*after : nullptr});
+  findings["change"] = vehicle_.resultsOf(place, whole).value("change", "");
+  if (!vehicle_.isStrutAlone())
+    findings["vehicle"] = {{"strut", vehicle_.names[place]},
+                           {"file", vehicle_.file},
+                           {"anti_roll_bars", whole["anti_roll_bars"]},
+                           {"has_page", page_.has_value()}};
+  struts_.at(place).write(searchTemplate(), findings);
 }
 
-void ReportPage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options,
-                       const std::vector<std::string>& changes, const PageSource& source) {
-  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, changes[*vehicle_.only], source);
+void ReportPage::write(const VehicleDiagnosis& found, const DiagnoseOptions& options, json whole,
+                       const PageSource& source) {
+  if (vehicle_.only) return writeStrut(*vehicle_.only, found, options, whole, source);
   double samples = 0.0;
   for (const Drive& drive : found.drives.front()) samples += static_cast<double>(drive.samples.size());
   const double period = *options.sample_period;
-  json struts = json::array();
+  json places = json::array();
   for (std::size_t i = 0; i < vehicle_.names.size(); ++i) {
-    if (found.struts[i]) writeStrut(i, found, options, changes[i], source);
-    struts.push_back(strutJson(vehicle_.layout.struts[i], i, found, static_cast<bool>(found.struts[i])));
-    struts.back()["change"] = changes[i];
+    if (found.struts[i]) writeStrut(i, found, options, whole, source);
+    places.push_back({{"name", vehicle_.names[i]}});
+    if (const auto& position = vehicle_.layout.struts[i].position) places.back()["position"] = *position;
   }
-  page_->write(vehicleTemplate(), shortened({{"source", sourceOf(source.drive_names, samples * period, period)},
-                                             {"verdict", nameOf(found.verdict)},
-                                             {"summary", found.summary},
-                                             {"struts", struts},
-                                             {"ratios", found.coupling.ratios},
-                                             {"stddevs", found.coupling.stddevs},
-                                             {"model_error", found.coupling.model_error},
-                                             {"anti_roll_bars", barsJson(found.coupling)},
-                                             {"known_forces", forcesJson(found.coupling)},
-                                             {"origin", source.origin}}));
+  whole.update({{"source", sourceOf(source.drive_names, samples * period, period)},
+                {"places", places},
+                {"origin", source.origin}});
+  page_->write(vehicleTemplate(), shortened(std::move(whole)));
 }
 
 }  // namespace suspension_health_monitor

@@ -5,26 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "asked_vehicle.h"
+#include "bag_options.h"
 #include "html_page.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
 
-/// The vehicle of a strut that is not alone.
-struct InVehicle {
-  std::string strut;
-  std::string file;               ///< of --vehicle
-  std::vector<std::string> bars;  ///< struts that anti-roll bars tie it to
-  bool has_page = true;           ///< of its own, in the folder above that of the strut's
-};
-
 /// What a page is made from.
 struct PageSource {
   std::vector<std::string> drive_names;  ///< one per drive
   nlohmann::json origin;                 ///< as originOf()
-  std::string change = {};               ///< how the strut is against the healthy one, in words; empty: not known
 };
 
 /// All that the page of a search is made of.
@@ -33,28 +24,13 @@ struct ReportContent {
   const EffectLibrary& library;  ///< the candidates of the search
   double period;                 ///< of the samples [s]
   const PageSource& source;
-  const Comparison& before;            ///< the model as it is, fitted to all samples
-  const Comparison* after = nullptr;   ///< with the effects found; none if there are none
-  const InVehicle* vehicle = nullptr;  ///< none: the strut was searched by itself
+  const Comparison& before;  ///< the model as it is, fitted to all samples
+  const Comparison* after;   ///< with the effects found; none if there are none
 };
-
-// The parts of the page:
 
 /// The drives over time: measured z'' and the residuals before and after, packed as 16-bit numbers, with the stretches
 /// that were held out and a window that is worth looking at first.
 nlohmann::json drivesJson(const ReportContent& content);
-
-/// What the page tells of every candidate, by name: law, units, what a workshop would find, force or reading.
-nlohmann::json effectsJson(const EffectLibrary& library);
-
-/// Parameters before and after, with their standard deviations.
-nlohmann::json parametersJson(const ReportContent& content);
-
-/// The force of every effect that was found, as it was seen and by its law.
-nlohmann::json forcesJson(const ReportContent& content);
-
-/// How to put the model to use: the text of its file, and what to type.
-nlohmann::json addingJson(const ReportContent& content);
 
 /// The pages of a search: of every strut the verdict, the error step by step, measured against predicted over time, the
 /// residual from all sides, the force that was missing, every candidate, and how to use the model. Recordings beyond an
@@ -68,15 +44,15 @@ class ReportPage {
 
   /// Compares what a search found with the drives, before and after, and writes the pages.
   /// @param options  of the search, with sample_period.
-  /// @param changes  by strut how it is against the healthy one, in words; empty: not known.
+  /// @param whole  what was found as --json has it.
   /// @throws InputError, TooLittleError  if even the model as it is cannot be compared.
   /// @throws std::runtime_error  naming the file that cannot be written.
-  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, const std::vector<std::string>& changes,
+  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, nlohmann::json whole,
              const PageSource& source);
 
  private:
-  void writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options,
-                  const std::string& change, PageSource source);
+  void writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options, nlohmann::json& whole,
+                  const PageSource& source);
 
   const AskedVehicle& vehicle_;
   std::optional<HtmlPage> page_;            // before those of the struts, whose folders are in its folder

@@ -28,13 +28,19 @@ BOOST_HANA_ADAPT_STRUCT(shm::MonitorReport, stamp, estimate, ls, la, comparison,
 BOOST_HANA_ADAPT_STRUCT(shm::InputStatus, samples, rows, gaps, mean_period, period_fits, unit_fits);
 BOOST_HANA_ADAPT_STRUCT(shm::Baseline, damping_to_mass, stiffness_to_mass, damping_to_mass_stddev,
                         stiffness_to_mass_stddev, damping_scatter, stiffness_scatter, friction, temperature, learned);
-BOOST_HANA_ADAPT_STRUCT(shm::HealthMoment, elapsed, level, message);
+BOOST_HANA_ADAPT_STRUCT(shm::HealthMoment, time, elapsed, level, message);
 
+BOOST_HANA_ADAPT_STRUCT(shm::IdentifyResult, samples, rows, gaps, clock_jumps, sample_period, horizon_samples,
+                        warnings);
+
+BOOST_HANA_ADAPT_STRUCT(shm::EffectLibrary::Description, name, law, kind, coefficients, shapes, finding, advice);
 BOOST_HANA_ADAPT_STRUCT(shm::ModelNumber, name, effect, symbol, unit, value);
 BOOST_HANA_ADAPT_STRUCT(shm::StrutModel, damping_to_mass, stiffness_to_mass);
 BOOST_HANA_ADAPT_STRUCT(shm::FittedModel, model, stddev, all_samples);
 BOOST_HANA_ADAPT_STRUCT(shm::RankedModel, effects, model, fitted, held_out_rmse, error_removed_percent, significance,
                         significant);
+BOOST_HANA_ADAPT_STRUCT(shm::Diagnosis, verdict, noise_floor, structured_share, surface_share, suggested_drive,
+                        selected, indistinguishable);
 
 BOOST_HANA_ADAPT_STRUCT(shm::ResidualBin, from, to, mean, standard_error, rms, count);
 BOOST_HANA_ADAPT_STRUCT(shm::TimeBin, from, to, mean, standard_error, rms, count, drive, damping_error,

@@ -5,10 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "asked_vehicle.h"
+#include "bag_options.h"
 #include "suspension_health_monitor/compare.h"
-#include "suspension_health_monitor/internal/monitor/health_log.h"
-#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/vehicle.h"
@@ -36,19 +34,6 @@ nlohmann::json toJson(const IdentifyResult& found, const std::string& change);
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
 nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut);
 
-/// A line per change of level, then the times, and the estimates at the end.
-void printHealth(const HealthLog& log, const SuspensionMonitor& monitor, const std::string& reference);
-nlohmann::json toJson(const HealthLog& log, const SuspensionMonitor& monitor);
-
-/// @return time, level and message by name.
-nlohmann::json toJson(const HealthMoment& moment);
-
-/// @return the seconds by level.
-nlohmann::json secondsJson(const HealthLog& log);
-
-/// @return the block estimate, LS and LA at the end, by name.
-nlohmann::json estimatesJson(const SuspensionMonitor& monitor);
-
 /// What a search found: the verdict in a sentence, the ranked table, before and after.
 void printSearch(const Diagnosis& found);
 nlohmann::json toJson(const Diagnosis& found);
@@ -58,7 +43,7 @@ nlohmann::json toJson(const Diagnosis& found);
 void printComparison(const Comparison& comparison);
 nlohmann::json toJson(const Comparison& comparison);
 
-/// Adds "coefficients" and "shapes" by name.
+/// Adds "parameters", "coefficients" and "shapes" by name.
 void addNumbers(const StrutModel& model, nlohmann::json& into);
 
 /// How the struts move one another; nothing of a strut alone.

@@ -6,10 +6,12 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "../ros/live_baseline.h"
 #include "../ros/model_file.h"
 #include "../ros/yaml_settings.h"
+#include "command.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/text.h"
@@ -94,6 +96,19 @@ OptionMap othersOf(OptionMap given) {
   return given;
 }
 
+/// @return by strut what the file of --baseline has of it; nothing where it has nothing.
+std::vector<std::optional<Baseline>> readHealthyStruts(const std::string& path, const AskedVehicle& vehicle) {
+  if (vehicle.isStrutAlone()) return {readHealthy(path)};
+  const OptionMap settings = readYaml(path);
+  if (!areSettings(settings)) return readByStrut(path, vehicle, takeBaseline);
+  std::vector<std::optional<Baseline>> baselines;
+  prefixed(path + ": ", [&] {
+    for (const PipelineOptions& strut : VehicleOptions::fromValues(vehicle.layout, settings).struts)
+      baselines.emplace_back(nominalOf(strut.monitor));
+  });
+  return baselines;
+}
+
 }  // namespace
 
 KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
@@ -106,10 +121,6 @@ KnownModels readModels(const boost::program_options::variables_map& values, cons
     refuseUnknown(settings, {});
     return model;
   });
-}
-
-std::vector<std::optional<Baseline>> readBaselines(const std::string& path, const AskedVehicle& vehicle) {
-  return readByStrut(path, vehicle, takeBaseline);
 }
 
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
@@ -129,30 +140,58 @@ std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& opt
   return join(lacks, "; ");
 }
 
-OptionMap settingsFor(const std::string& strut, OptionMap given) {
-  OptionMap own = takeGroups(given, "struts")[strut];
-  own.insert(given.begin(), given.end());
-  return own;
-}
-
-std::string settingsOf(const StrutOfDrive& strut, const OptionMap& given, const std::vector<std::string>& drives) {
-  return head(drives, "For `config:=` of monitor.launch and replay.launch, and `suspension_bag ... --config`.") +
-         ownSettings(strut, "") + nested(othersOf(given), "");
-}
-
-std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
+std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, bool is_of_one, OptionMap given,
                        const std::vector<std::string>& drives) {
-  OptionMap common = given;
-  std::map<std::string, OptionMap> own = takeGroups(common, "struts");
+  std::map<std::string, OptionMap> own = takeGroups(given, kStruts);
+  if (is_of_one) {
+    const auto& [name, strut] = *struts.begin();
+    own[name].insert(given.begin(), given.end());
+    return head(drives, "For `config:=` of monitor.launch and replay.launch, and `suspension_bag ... --config`.") +
+           ownSettings(strut, "") + nested(othersOf(own[name]), "");
+  }
   std::string text =
       head(drives, "For `strut_config:=` of vehicle.launch, and `suspension_bag ... --vehicle ... --config`.");
-  text += nested(othersOf(common), "") + "struts:\n";
+  text += nested(othersOf(given), "") + "struts:\n";
   for (const auto& [name, strut] : struts) {
     text += "  " + name + ":\n" + ownSettings(strut, "    ") + nested(othersOf(own[name]), "    ");
     own.erase(name);
   }
   for (const auto& [name, settings] : own) text += "  " + name + ":\n" + nested(settings, "    ");
   return text;
+}
+
+Baseline readHealthy(const std::string& path) {
+  OptionMap values = readYaml(path);
+  return prefixed(path + ": ", [&] {
+    return areSettings(values) ? nominalOf(PipelineOptions::fromValues(values).monitor) : takeBaseline(values);
+  });
+}
+
+HealthyStruts beforehand(HealthyStruts given, const BagOptions& options) {
+  given.resize(options.vehicle.names.size());
+  for (std::size_t i = 0; i < given.size(); ++i)
+    prefixed(options.vehicle.prefix(i, ": ", "struts/"), [&] {
+      const PipelineOptions& strut = options.settings.struts[i];
+      if (given[i]) return requireOneReference(given[i]->file, strut.monitor);
+      if (const LiveBaseline live(strut); live.known()) given[i] = {*live.known(), strut.shell.baseline_file};
+    });
+  return given;
+}
+
+HealthyStruts healthyOf(const boost::program_options::variables_map& values, const BagOptions& options) {
+  HealthyStruts given;
+  if (values.count(kBaseline) != 0) {
+    const auto path = values[kBaseline].as<std::string>();
+    for (const std::optional<Baseline>& healthy : readHealthyStruts(path, options.vehicle)) {
+      given.emplace_back();
+      if (healthy && !healthy->isEmpty()) given.back() = {*healthy, path};
+    }
+  }
+  return beforehand(std::move(given), options);
+}
+
+Baseline knownHealthy(const std::optional<HealthyStrut>& healthy, const PipelineOptions& options) {
+  return healthy ? healthy->baseline : nominalOf(options.monitor);
 }
 
 }  // namespace suspension_health_monitor

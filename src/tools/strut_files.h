@@ -21,23 +21,14 @@ namespace suspension_health_monitor {
 KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
                        const EffectLibrary& library);
 
-/// Reads a file of healthy struts, likewise.
-std::vector<std::optional<Baseline>> readBaselines(const std::string& path, const AskedVehicle& vehicle);
-
 /// @return why strutOf() cannot be what health is judged by, in words; empty: it can.
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options);
 
-/// @return the settings of one strut of a vehicle: those of all, and its own below struts/NAME, which come before them.
-OptionMap settingsFor(const std::string& strut, OptionMap given);
-
 /// The text of a file of settings, as the monitor loads it and --config: those that were given, the horizon, and the
-/// strut as the nominal one.
+/// strut as the nominal one; of a vehicle its struts by name: `struts: {NAME: {...}}`.
+/// @param is_of_one  the file is to be that of the one strut: with the settings of all, before which its own come.
 /// @param drives  names of the bags.
-std::string settingsOf(const StrutOfDrive& strut, const OptionMap& given, const std::vector<std::string>& drives);
-
-/// The same of a vehicle's struts, by name: `struts: {NAME: {...}}`. Those that were given of a strut alone stay with
-/// it.
-std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, const OptionMap& given,
+std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, bool is_of_one, OptionMap given,
                        const std::vector<std::string>& drives);
 
 /// The healthy strut as it is given beside the settings.

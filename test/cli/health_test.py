@@ -300,7 +300,7 @@ def test_parked_is_a_result(program, tmp_path):
     assert said.result["seconds"] == {"OK": 0.0, "WARN": 0.0, "ERROR": 0.0, "STALE": pytest.approx(59.98, abs=1e-6)}
     assert said.rows[-1]["message"].startswith("cannot tell: ")
     assert said.result["end"] == {"level": "STALE", "message": said.rows[-1]["message"], "time": pytest.approx(
-        1_700_000_000 + 59.98, abs=1e-6)}
+        1_700_000_000 + 59.98, abs=1e-6), "elapsed": pytest.approx(59.98, abs=1e-6)}
     assert "at the end STALE: " + said.rows[-1]["message"] in said.text
 
 

@@ -154,10 +154,10 @@ def test_wrong_options_are_refused_by_name(call, options, words, drive):
 
 
 def test_every_name_of_an_option_is_its_own():
-    from suspension_health_monitor._settings import array_keywords
+    from suspension_health_monitor._settings import array_keywords, assignments
     names = {"health_damping_warn": 0.2, "health/damping_error": 0.4, "health": {"confirm_time": 1.0},
              "nominal_damping_to_mass": np.float64(3.0), "memory": None, "effects": ["a", "b"]}
-    assert array_keywords(names, None, []).assignments == [
+    assert assignments(array_keywords(names, None, [])) == [
         "effects=a, b", "health/confirm_time=1", "health/damping_error=0.40000000000000002",
         "health/damping_warn=0.20000000000000001", "nominal/damping_to_mass=3"]
 

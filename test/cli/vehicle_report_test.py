@@ -201,12 +201,13 @@ def page_of(program, tmp_path_factory):
     before, findings, after = re.fullmatch(
         r'(.*<script type="application/json" id="findings">)(.*?)(</script>.*)', text, re.DOTALL).groups()
 
-    def make(names, known_forces=(), **settings):
+    def make(names, known_forces=None, **settings):
         found = json.loads(findings)
-        strut = {key: value for key, value in found["struts"][0].items() if key != "position"}
-        found["struts"] = [{**strut, "name": name, **settings} for name in names]
-        found["ratios"] = found["stddevs"] = [[0.1] * len(names)] * len(names)
-        found["known_forces"] = list(known_forces)
+        strut = {**next(iter(found["struts"].values())), **settings}
+        found["struts"] = {name: strut for name in names}
+        found["places"] = [{"name": name} for name in names]
+        found["coupling"] = found["coupling_stddevs"] = {name: {other: 0.1 for other in names} for name in names}
+        found["known_forces"] = known_forces or {}
         page = folder / "page" / f"{names[0]}.html"
         page.write_text(before + json.dumps(found) + after)
         return types.SimpleNamespace(path=page, page=browser.shown(page, folder / "profile"), folder=folder)
@@ -232,7 +233,7 @@ def test_struts_without_positions_are_laid_out_by_their_names(page_of, rows):
 
 
 @pytest.mark.parametrize("count, settings", [
-    (16, {}), (4, {"verdict": "cannot_tell", "has_page": False, "reason": "are too short", "selected": []})])
+    (16, {}), (4, {"verdict": "cannot_tell", "reason": "are too short", "selected": []})])
 def test_any_vehicle_has_room(page_of, count, settings):
     names = [f"a_rather_long_name_{i}_{side}" for i in range(count // 2) for side in ("left", "right")]
     made = page_of(names, **settings)
@@ -247,9 +248,10 @@ def test_any_vehicle_has_room(page_of, count, settings):
 
 def test_known_forces_have_a_table(page_of):
     assert [] == list(page_of(["bare_1", "bare_2"]).page.all("section", id="forces"))
-    forces = [{"name": "tow_bar", "coefficients": [3.21e-4, -8.7e-5], "stddevs": [2e-6, 3e-6]},
-              {"name": "crane", "coefficients": [0, 0], "stddevs": [None, None]}]
-    made = page_of(["pulled_1", "pulled_2"], known_forces=forces)
+    names = ["pulled_1", "pulled_2"]
+    forces = {"tow_bar": {"coefficients": dict(zip(names, [3.21e-4, -8.7e-5])), "stddevs": dict(zip(names, [2e-6, 3e-6]))},
+              "crane": {"coefficients": dict.fromkeys(names, 0), "stddevs": dict.fromkeys(names)}}
+    made = page_of(names, known_forces=forces)
     assert made.page.one(id="script-errors").text == ""
     rows = {row.attributes["data-force"]: [cell.text for cell in list(row.all("td"))[1:]]
             for row in made.page.one(id="forces").all("tr") if "data-force" in row.attributes}

@@ -86,10 +86,10 @@ TEST(HealthLog, EachLevelHoldsUntilTheNext) {
   EXPECT_DOUBLE_EQ(secondsOf(log, HealthLevel::kWarn), 3.0);
   EXPECT_DOUBLE_EQ(secondsOf(log, HealthLevel::kError), 7.0);
   EXPECT_DOUBLE_EQ(toSeconds(log.elapsed()), 20.0);
-  EXPECT_EQ(log.events()[2].stamp, fromSeconds(20.0));
+  EXPECT_EQ(log.events()[2].time, fromSeconds(20.0));
   EXPECT_EQ(log.events()[2].elapsed, fromSeconds(10.0));
   EXPECT_EQ(log.latest().level, HealthLevel::kError);
-  EXPECT_EQ(log.latest().stamp, fromSeconds(30.0));
+  EXPECT_EQ(log.latest().time, fromSeconds(30.0));
 }
 
 TEST(HealthLog, WhatIsKnownIsOldAfterTheTimeout) {
@@ -98,9 +98,9 @@ TEST(HealthLog, WhatIsKnownIsOldAfterTheTimeout) {
   drive(log, 25.0, 30.0, HealthLevel::kOk);
   log.finishRecording();
   EXPECT_EQ(levels(log), "STALE OK STALE OK ");
-  EXPECT_EQ(log.events()[2].stamp, fromSeconds(12.0));
+  EXPECT_EQ(log.events()[2].time, fromSeconds(12.0));
   EXPECT_EQ(log.events()[2].message.find("cannot tell: no reading accepted for 15 s; before: "), 0U);
-  EXPECT_EQ(log.events()[3].stamp, fromSeconds(25.0));
+  EXPECT_EQ(log.events()[3].time, fromSeconds(25.0));
   EXPECT_DOUBLE_EQ(secondsOf(log, HealthLevel::kStale), 13.0);
   EXPECT_DOUBLE_EQ(sum(log), 29.9);
 }
@@ -218,14 +218,14 @@ TEST(HealthLog, EarlyWarningsAreCountedWhenTheyBegin) {
   drive(log, 9.1, 12.0, HealthLevel::kWarn, true);
   log.finishRecording();
   ASSERT_EQ(log.earlyWarnings().size(), 1U) << "beside a raised level it is none";
-  EXPECT_EQ(log.earlyWarnings()[0].stamp, fromSeconds(5.1));
+  EXPECT_EQ(log.earlyWarnings()[0].time, fromSeconds(5.1));
   EXPECT_EQ(log.count(HealthLevel::kOk), 1U);
   EXPECT_EQ(log.count(HealthLevel::kWarn), 1U);
 }
 
 TEST(HealthLog, ASecondHasOneRowAndEveryChangeToo) {
   std::vector<double> rows;
-  HealthLog log(kTimeout, kSensors, [&](const HealthMoment& moment) { rows.push_back(toSeconds(moment.stamp)); });
+  HealthLog log(kTimeout, kSensors, [&](const HealthMoment& moment) { rows.push_back(toSeconds(moment.time)); });
   drive(log, 10.0, 12.4, HealthLevel::kStale);
   drive(log, 12.5, 15.0, HealthLevel::kOk);
   log.finishRecording();
@@ -265,7 +265,7 @@ TEST(HealthLog, IsTheMonitorsOwnLevelsAndSentences) {
   }
   log.finishRecording();
   for (const HealthMoment& event : log.events())
-    written.push_back(std::to_string(event.stamp.count()) + nameOf(event.level) + event.message);
+    written.push_back(std::to_string(event.time.count()) + nameOf(event.level) + event.message);
   ASSERT_GE(log.count(HealthLevel::kError), 1U);
   written.erase(written.begin());  // the STALE that all begins with is no change of the monitor's
   EXPECT_EQ(written, said);

@@ -31,6 +31,23 @@ std::vector<ModelNumber> numbersOf(const StrutModel& model) {
   return numbers;
 }
 
+std::vector<EffectLibrary::Description> EffectLibrary::describe() const {
+  std::vector<Description> all;
+  const auto add = [&](const auto& effect, const char* kind) -> Description& {
+    return all.emplace_back(Description{effect.name, effect.law, kind, effect.finding, effect.advice, {}, {}});
+  };
+  for (const ForceEffect& effect : forces) {
+    Description& its = add(effect, "force");
+    its.coefficients.emplace_back("c", effect.unit);
+    for (const ShapeParameter& shape : effect.shapes) its.shapes.emplace_back(shape.name, shape.unit);
+  }
+  for (const MeasurementEffect& effect : readings) {
+    Description& its = add(effect, "reading");
+    for (const MeasurementEffect::Coefficient& c : effect.coefficients) its.coefficients.emplace_back(c.name, c.unit);
+  }
+  return all;
+}
+
 std::vector<double*> valuesOf(StrutModel& model) {
   std::vector<double*> values{&model.damping_to_mass, &model.stiffness_to_mass};
   for (ActiveEffect& active : model.effects) {

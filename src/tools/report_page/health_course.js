@@ -3,7 +3,7 @@
 /** The levels with the times between which they held. */
 function levelSpans({events, duration}) {
   return events.map(
-      (event, i) => ({...event, from: event.after, to: i + 1 < events.length ? events[i + 1].after : duration}));
+      (event, i) => ({...event, from: event.elapsed, to: i + 1 < events.length ? events[i + 1].elapsed : duration}));
 }
 
 /** Spans of levels; however short, an event is one pixel wide, and what is worse covers what is not. */
@@ -111,7 +111,7 @@ function bandPlot(host, x, findings) {
   const spans = levelSpans(findings);
   const y = new Axis({title: '', domain: [0, 1]});
   y.ticks = () => [];
-  const early = findings.early_warnings.map(({after}) => after);
+  const early = findings.early_warnings.map(({elapsed}) => elapsed);
   return new Plot(host, {
     x,
     y,

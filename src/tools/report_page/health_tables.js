@@ -5,10 +5,10 @@ const MOST_EVENTS = 500;  // that a person would read
 function eventsSection({strut, events}, several) {
   const rows = events.slice(0, MOST_EVENTS)
                    .map(
-                       ({time, after, level, message}) => element(
+                       ({time, elapsed, level, message}) => element(
                            'tr', {'data-event': level, 'data-time': time},
                            element('td', {class: 'number minor'}, time.toFixed(2)),
-                           element('td', {class: 'moment'}, span(after)),
+                           element('td', {class: 'moment'}, span(elapsed)),
                            element('td', {}, element('b', {class: 'level', 'data-level': level}, level)),
                            element('td', {}, typeset(message))));
   const left = events.length - rows.length;
@@ -30,7 +30,7 @@ function estimateRow(name, estimate) {
       element('td', {class: 'number minor'}, rounded(estimate.offset, 3)));
 }
 
-function estimatesSection({strut, estimates}, several) {
+function estimatesSection({strut, estimate, la, ls}, several) {
   return section(
       idOf('estimates', strut, several), titleOf('Estimates at the end', strut, several),
       'What the monitor knows after the last reading, ± standard deviation. Trust “estimate”: health is judged by it. ' +
@@ -42,5 +42,5 @@ function estimatesSection({strut, estimates}, several) {
             head('frequency [Hz]', 'number minor'), head('damping ratio', 'number minor'),
             head('offset [m/s²]', 'number minor')
           ],
-          Object.entries(estimates).map(([name, each]) => estimateRow(name, each))));
+          Object.entries({estimate, la, ls}).map(([name, each]) => estimateRow(name, each))));
 }

@@ -3,7 +3,7 @@
 /** The strut that was worst, the first of those to be so. */
 function worstStrut(struts) {
   const order = ['ERROR', 'WARN', 'OK', 'STALE'];
-  const since = ({events}) => events.find(({level}) => level === worstLevel(events)).after;
+  const since = ({events}) => events.find(({level}) => level === worstLevel(events)).elapsed;
   return [...struts].sort(
       (a, b) => order.indexOf(worstLevel(a.events)) - order.indexOf(worstLevel(b.events)) || since(a) - since(b))[0];
 }

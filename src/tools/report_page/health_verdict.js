@@ -34,10 +34,10 @@ const worstLevel = events => ['ERROR', 'WARN', 'OK', 'STALE'].find(level => even
 
 function headline({events}) {
   const level = worstLevel(events);
-  const {after, message} = events.find(each => each.level === level);
+  const {elapsed, message} = events.find(each => each.level === level);
   if (level === 'OK') return 'Neither a warning nor an error';
   if (level === 'STALE') return 'The monitor could not tell';
-  return typeset(`${capitalised(MEANINGS[level])} after ${span(after)}: ${message.split(';')[0]}`);
+  return typeset(`${capitalised(MEANINGS[level])} after ${span(elapsed)}: ${message.split(';')[0]}`);
 }
 
 /** A section's id and title, with the strut's name where there are several. */
@@ -72,8 +72,8 @@ function healthVerdictSection(findings, several) {
       early.length ? element(
                          'p', {},
                          `Early warning${early.length > 1 ? 's' : ''} after ${
-                             joined(early.slice(0, 5).map(
-                                 ({after}) => span(after)))}${early.length > 5 ? `, ${early.length} in all` : ''}.`) :
-                                                                                 null,
+                             joined(early.slice(0, 5).map(({elapsed}) => span(elapsed)))}${
+                             early.length > 5 ? `, ${early.length} in all` : ''}.`) :
+                                                null,
       levelFigures(findings));
 }

@@ -1,11 +1,15 @@
 // Candidates and parameters.
 
 /** An effect's coefficients and shapes as "c = 0.35 ± 0.01 m/s²", one text each. */
-function numbersOf(findings, name, {coefficients, shapes}, deviations = {}) {
-  return kindOf(findings, name).numbers.map(({key, symbol, unit}) => {
-    const value = key in coefficients ? coefficients[key] : shapes[key];
-    return `${symbol} = ${quantityWithDeviation(value, deviations[key], unit)}`.trim();
-  });
+function numbersOf(findings, name, model, deviations = {}) {
+  const {coefficients, shapes} = kindOf(findings, name);
+  const text = (key, symbol, value, unit) =>
+      `${symbol} = ${quantityWithDeviation(value, deviations[key], unit)}`.trim();
+  const keyed = (names, values) =>
+      names.map(([symbol, unit]) => text(`${name}/${symbol}`, symbol, values[`${name}/${symbol}`], unit));
+  const own = coefficients.length > 1 ? keyed(coefficients, model.coefficients) :
+                                        [text(name, 'c', model.coefficients[name], coefficients[0][1])];
+  return [...own, ...keyed(shapes, model.shapes)];
 }
 
 /** A model's coefficients and shapes, one line each. */
@@ -58,6 +62,12 @@ function rankingSection(findings) {
           rows));
 }
 
+/** Symbol and name of one of the model's numbers. */
+function parameterName({name, effect, symbol}) {
+  if (!effect) return {b1: ['b₁', 'damping / mass'], b0: ['b₀', 'stiffness / mass']}[symbol];
+  return [symbol, `of ${spoken(name === `${effect}/${symbol}` ? effect : name)}`];
+}
+
 function parameterSection(findings) {
   const {parameters, after} = findings;
   const scaleOf = ({before, after: later, unit}) => scaleFor(Math.abs((later || before).value), unit);
@@ -77,8 +87,7 @@ function parameterSection(findings) {
           ],
           parameters.map(
               row => element(
-                  'tr', {},
-                  element('td', {}, row.symbol ? [element('b', {}, row.symbol), ' '] : null, spoken(row.title)),
+                  'tr', {}, element('td', {}, element('b', {}, parameterName(row)[0]), ' ', parameterName(row)[1]),
                   cell(row.before, scaleOf(row)),
                   after ? [cell(row.after, scaleOf(row)), element('td', {class: 'number minor'}, change(row))] : null,
                   element('td', {}, scaleOf(row).unit)))));

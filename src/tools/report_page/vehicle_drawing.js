@@ -73,7 +73,7 @@ const fitting = name =>
     (name.length > DRAWING.letters ? `${name.slice(0, 5)}…${name.slice(6 - DRAWING.letters)}` : name);
 
 /** A wheel, and beside the body its name and verdict. */
-function wheel({name, verdict, selected = [], has_page: hasPage}, {x, y, onRight}, half) {
+function wheel({name, verdict, selected, reason}, {x, y, onRight}, half) {
   const aside = DRAWING.width / 2 + (onRight ? 1 : -1) * (half + 7);
   const at = {x: aside, 'text-anchor': onRight ? 'start' : 'end'};
   const word = verdictWord(verdict, selected.length);
@@ -83,15 +83,14 @@ function wheel({name, verdict, selected = [], has_page: hasPage}, {x, y, onRight
     drawn('text', {...at, y: y - 2}, fitting(spoken(name))), drawn('text', {...at, y: y + 13, class: 'word'}, word)
   ];
   const marks = {'data-strut': name, 'data-verdict': verdict, 'data-x': x.toFixed(1), 'data-y': y.toFixed(1)};
-  return hasPage ? drawn('a', {...marks, href: `${name}/report.html`}, parts) : drawn('g', marks, parts);
+  return reason ? drawn('g', marks, parts) : drawn('a', {...marks, href: `${name}/report.html`}, parts);
 }
 
-function antiRollBar({struts: [first, second]}, struts, pixels) {
-  const [from, to] = [pixels[first], pixels[second]];
+function antiRollBar({struts: tied}, struts, pixels) {
+  const [from, to] = tied.map(name => pixels[struts.findIndex(strut => strut.name === name)]);
   const level = Math.abs(from.y - to.y) < 12;
   return drawn(
-      'g', {'data-bar': `${struts[first].name} ${struts[second].name}`},
-      drawn('line', {class: 'bar-line', x1: from.x, y1: from.y, x2: to.x, y2: to.y}),
+      'g', {'data-bar': tied.join(' ')}, drawn('line', {class: 'bar-line', x1: from.x, y1: from.y, x2: to.x, y2: to.y}),
       level ? drawn(
                   'text', {class: 'muted', x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 - 9, 'text-anchor': 'middle'},
                   'anti-roll bar') :

@@ -1,7 +1,12 @@
 // Puts the page of a vehicle together, section by section.
 
+/**
+ * The struts in the order of the vehicle, with name and position; of one whose drives are too poor there is a reason.
+ */
+const strutsOf = ({places, struts}) => places.map(place => ({verdict: 'cannot_tell', ...struts[place.name], ...place}));
+
 function buildVehiclePage() {
-  const findings = readFindings();
+  const all = readFindings(), findings = {...all, struts: strutsOf(all)};
   showPage(spoken(findings.summary), [
     vehicleVerdictSection(findings), couplingSection(findings), forcesSection(findings), strutsSection(findings),
     originSection(

@@ -1,17 +1,19 @@
 // The struts by numbers, and how they move one another.
 
 function strutRow(strut, scale) {
-  const {name, verdict, selected = [], damping_to_mass: damping, stiffness_to_mass: stiffness} = strut;
-  const error = key => (isNumber(strut[key]) ? rounded(strut[key] * scale.factor) : '–');
+  const {name, verdict, selected, base = {}, extended = {}, noise_floor: floor} = strut;
+  const {damping_to_mass: damping, stiffness_to_mass: stiffness} = extended.parameters || base.parameters || {};
+  const error = value => (isNumber(value) ? rounded(value * scale.factor) : '–');
   return element(
       'tr', {'data-strut': name, 'data-verdict': verdict}, element('td', {}, strutName(strut)),
       element('td', {}, element('span', {class: 'word'}, verdictWord(verdict, selected.length))),
       [damping, stiffness].map(value => element('td', {class: 'number'}, rounded(value, 4))),
-      ['error_before', 'error_after', 'noise_floor'].map(key => element('td', {class: 'number minor'}, error(key))));
+      [base.held_out_rmse, extended.held_out_rmse, floor].map(
+          value => element('td', {class: 'number minor'}, error(value))));
 }
 
 function strutsSection({struts}) {
-  const scale = scaleFor(Math.max(0, ...struts.map(({error_before: error = 0}) => error)), 'm/s^2');
+  const scale = scaleFor(Math.max(0, ...struts.map(({base}) => (base ? base.held_out_rmse : 0))), 'm/s^2');
   return section(
       'struts', 'The struts by numbers',
       'Damping b₁ and stiffness b₀ over the mass that each has of the body, free of what the others do; error: of the ' +
@@ -32,11 +34,13 @@ function ratioCell(value, stddev, most = 4) {
   return [shown(value), element('small', {}, `± ${shown(stddev)}`)];
 }
 
-function couplingSection({struts, ratios, stddevs, model_error: modelError}) {
+function couplingSection({struts, coupling, coupling_stddevs: stddevs, model_error: modelError}) {
   if (struts.length < 2) return null;
-  const cell = (i, j) => element(
-      'td', {class: 'number', 'data-ratio': ratios[i][j], 'data-stddev': i === j ? null : stddevs[i][j]},
-      i === j ? '1' : ratioCell(ratios[i][j], stddevs[i][j]));
+  const cell = (at, of) =>
+      (at === of ? element('td', {class: 'number', 'data-ratio': 1}, '1') :
+                   element(
+                       'td', {class: 'number', 'data-ratio': coupling[at][of], 'data-stddev': stddevs[at][of]},
+                       ratioCell(coupling[at][of], stddevs[at][of])));
   return section(
       'coupling', 'How the struts move one another',
       'A row is the top of a strut: how much of what each strut does to its own top reaches it, ± standard deviation. ' +
@@ -47,26 +51,28 @@ function couplingSection({struts, ratios, stddevs, model_error: modelError}) {
       wideTable(
           [head('moved by'), struts.map(({name}) => head(spoken(name), 'number'))],
           struts.map(
-              ({name}, i) => element(
-                  'tr', {'data-strut': name}, element('td', {}, spoken(name)), struts.map((_, j) => cell(i, j)))),
+              ({name}) => element(
+                  'tr', {'data-strut': name}, element('td', {}, spoken(name)),
+                  struts.map(other => cell(name, other.name)))),
           'matrix'));
 }
 
 /** Of a force that has been still nothing is known: its standard deviation is null. */
 function forcesSection({struts, known_forces: forces}) {
-  if (forces.length === 0) return null;
-  const cell = ({coefficients, stddevs}, i) => element(
-      'td', {class: 'number', 'data-coefficient': coefficients[i], 'data-stddev': stddevs[i]},
-      isNumber(stddevs[i]) ? ratioCell(coefficients[i], stddevs[i], 8) : 'cannot tell');
+  const names = Object.keys(forces);
+  if (names.length === 0) return null;
+  const cell = ({coefficients, stddevs}, strut) => element(
+      'td', {class: 'number', 'data-coefficient': coefficients[strut], 'data-stddev': stddevs[strut]},
+      isNumber(stddevs[strut]) ? ratioCell(coefficients[strut], stddevs[strut], 8) : 'cannot tell');
   return section(
       'forces', 'What the known forces do',
       'By how much one unit of a force accelerates the top of each strut, in m/s² per unit, ± standard deviation: of a ' +
           'vertical force in newtons 1/M + x·xᵢ/Iyy + y·yᵢ/Ixx.',
       wideTable(
           [head('force'), struts.map(({name}) => head(spoken(name), 'number'))],
-          forces.map(
+          names.map(
               force => element(
-                  'tr', {'data-force': force.name}, element('td', {}, spoken(force.name)),
-                  struts.map((_, i) => cell(force, i)))),
+                  'tr', {'data-force': force}, element('td', {}, spoken(force)),
+                  struts.map(({name}) => cell(forces[force], name)))),
           'matrix'));
 }

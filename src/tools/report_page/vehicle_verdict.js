@@ -8,12 +8,12 @@ function foundIn({selected, indistinguishable, reason}) {
   return selected.map(name => joined([name, ...rivals(name)].map(spoken), 'or')).join('; ');
 }
 
-function strutName({name, has_page: hasPage}) {
-  return hasPage ? element('a', {href: `${name}/report.html`}, spoken(name)) : spoken(name);
+function strutName({name, reason}) {
+  return reason ? spoken(name) : element('a', {href: `${name}/report.html`}, spoken(name));
 }
 
 function strutItem(strut) {
-  const {name, verdict, selected = [], change} = strut;
+  const {name, verdict, selected, change} = strut;
   const found = foundIn(strut);
   return element(
       'li', {'data-strut': name, 'data-verdict': verdict}, element('b', {}, strutName(strut)), ' ',
@@ -22,22 +22,22 @@ function strutItem(strut) {
       change ? element('small', {class: 'change'}, capitalised(change)) : null);
 }
 
-function barSentence({struts: [first, second], stiffness_to_mass: stiffness}, struts) {
-  const own = [first, second].map((strut, i) => `${rounded(stiffness[i])} of ${spoken(struts[strut].name)}`);
+function barSentence({struts, stiffness_to_mass: stiffness}) {
+  const own = struts.map(strut => `${rounded(stiffness[strut])} of ${spoken(strut)}`);
   return element(
       'p', {},
-      `Anti-roll bar between ${spoken(struts[first].name)} and ${
-          spoken(struts[second].name)}: stiffness over the body’s mass at the strut ${joined(own)} [1/s²].`);
+      `Anti-roll bar between ${joined(struts.map(spoken))}: stiffness over the body’s mass at the strut ${
+          joined(own)} [1/s²].`);
 }
 
 function vehicleVerdictSection(findings) {
   const {verdict, summary, struts, anti_roll_bars: bars, source} = findings;
-  const named = struts.reduce((sum, {selected = []}) => sum + selected.length, 0) - bars.length;  // a bar is of two
+  const named = struts.reduce((sum, {selected}) => sum + selected.length, 0) - bars.length;  // a bar is of two
   return element(
       'section', {id: 'verdict', 'data-verdict': verdict}, element('p', {class: 'source'}, source),
       element('h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, named)), element('br'), spoken(summary)),
       element('div', {class: 'from-above'}, vehicleDrawing(findings), element('ul', {}, struts.map(strutItem))),
-      bars.map(bar => barSentence(bar, struts)),
+      bars.map(barSentence),
       element(
           'p', {class: 'lede'},
           `From above, ahead is up; ${

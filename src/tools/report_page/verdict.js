@@ -112,16 +112,19 @@ function keyFigures(findings) {
 /** The way back to the vehicle of the strut, and what of it is in no strut. */
 function ofVehicle({vehicle}) {
   if (!vehicle) return null;
-  const bars = vehicle.bars.map(
-      other => `An anti-roll bar ties it to ${spoken(other)}: known from the coupling, and taken out here. `);
+  const bars =
+      vehicle.anti_roll_bars.filter(({struts}) => struts.includes(vehicle.strut))
+          .map(({struts}) => struts.find(name => name !== vehicle.strut))
+          .map(other => `An anti-roll bar ties it to ${spoken(other)}: known from the coupling, and taken out here. `);
   const back = vehicle.has_page ? element('a', {href: '../report.html'}, 'The whole vehicle') : null;
   return element('p', {}, `${capitalised(spoken(vehicle.strut))} without what the other struts do to it. `, bars, back);
 }
 
 function verdictSection(findings) {
-  const {verdict, selected} = findings.search;
+  const {search: {verdict, selected}, vehicle} = findings;
   return element(
-      'section', {id: 'verdict', 'data-verdict': verdict}, element('p', {class: 'source'}, findings.source),
+      'section', {id: 'verdict', 'data-verdict': verdict},
+      element('p', {class: 'source'}, `${vehicle ? `${vehicle.strut} in ` : ''}${findings.source}`),
       element(
           'h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, selected.length)), element('br'),
           headline(findings)),

@@ -7,6 +7,13 @@ const NAMES = {
   after: 'with the effect'
 };
 
+/** What a force may depend on. */
+const AXES = {
+  travel: {title: 'travel', unit: 'm'},
+  travel_rate: {title: 'travel rate', unit: 'm/s'},
+  time: {title: 'time', unit: 's'}
+};
+
 const transposed = matrix => matrix[0].map((_, j) => matrix.map(row => row[j]));
 
 /** A map of matrices[x][y] for figures: rows upwards along y, nothing where no sample was. */
@@ -18,14 +25,13 @@ function mapOf([x, y], [x_edges, y_edges], {count, ...matrices}) {
 }
 
 function surfaceMap({travel_edges, rate_edges, mean, standard_error, count}) {
-  const axes = [{title: 'travel', unit: 'm'}, {title: 'travel rate', unit: 'm/s'}];
-  return mapOf(axes, [travel_edges, rate_edges], {mean, standard_error, count});
+  return mapOf([AXES.travel, AXES.travel_rate], [travel_edges, rate_edges], {mean, standard_error, count});
 }
 
 /** What a force that two variables decide is like: `value` of every cell, 'mean' as it was seen or 'law'. */
-function forceMap({axes, edges, cells}, value) {
+function forceMap({variables, edges, cells}, value) {
   const each = name => cells.map(column => column.map(bin => bin[name]));
-  return mapOf(axes, edges, {mean: each(value), count: each('count')});
+  return mapOf(variables.map(name => AXES[name]), edges, {mean: each(value), count: each('count')});
 }
 
 function mapSection(findings) {
@@ -73,7 +79,7 @@ function forceCurves(force) {
   const laws = force.curve ? [force.curve] :
                              branches.map(({points}) => ({at: points.map(({x}) => x), law: points.map(each => each.law)}));
   whenPlaced(() => new Plot(host, {
-                     x: new Axis({...force.axes[0], domain: padded(seen.map(({x}) => x), 0.04)}),
+                     x: new Axis({...AXES[force.variables[0]], domain: padded(seen.map(({x}) => x), 0.04)}),
                      y: new Axis({
                        title: 'force per unit mass',
                        unit: 'm/s^2',
@@ -93,7 +99,7 @@ function forceCurves(force) {
                            ['by the law', this.y.show(point.law), 'after'], ['samples', String(point.count)]
                          ];
                        });
-                       return {title: `${force.axes[0].title} ${this.x.show(x)}`, rows: rows.flat(), at: x};
+                       return {title: `${AXES[force.variables[0]].title} ${this.x.show(x)}`, rows: rows.flat(), at: x};
                      },
                    }).draw());
   return [

@@ -60,7 +60,7 @@ class LevelTimes {
 
 /// What a monitor says at one time of recorded drives.
 struct HealthMoment {
-  Stamp stamp{};    ///< of the measurement
+  Stamp time{};     ///< stamp of the measurement
   Stamp elapsed{};  ///< time that the recordings have covered until then, one after the other
   HealthLevel level = HealthLevel::kStale;
   std::string message;  ///< why, as ~health and /diagnostics say it

@@ -12,8 +12,6 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr std::size_t kMostStreams = 3;  ///< of one strut, see Side
-
 /// How the readings of several sensors come onto one clock, see StreamGrid.
 enum class Alignment {
   kAuto,      ///< paired as long as that does well, then resampled

@@ -1,0 +1,215 @@
+#include "results.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "json_of.h"
+#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+
+namespace suspension_health_monitor {
+
+using nlohmann::json;
+
+namespace {
+
+std::string cell(int width, int precision, double value) {
+  return std::isnan(value) ? formatted("%*s", width, "-") : formatted("%*.*f", width, precision, value);
+}
+
+// A negative stiffness has no frequency.
+std::string describeOscillation(const StrutEstimate& estimate) {
+  if (!(estimate.stiffness_to_mass > 0.0)) return "no natural frequency";
+  return cell(0, 3, estimate.naturalFrequency()) + " Hz, damping ratio " + cell(0, 3, estimate.dampingRatio());
+}
+
+std::string describeHop(const WheelEstimate& estimate) {
+  const double frequency = estimate.wheelHopFrequency();
+  return std::isnan(frequency) ? "no wheel hop" : "wheel hop " + cell(0, 3, frequency) + " Hz";
+}
+
+json couplingJson(const std::vector<std::vector<double>>& ratios, const std::vector<std::string>& names) {
+  json result = json::object();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (std::size_t j = 0; j < names.size(); ++j)
+      if (i != j) result[names[i]][names[j]] = ratios[i][j];
+  return result;
+}
+
+json barsJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  json bars = json::array();
+  for (const AntiRollBarFound& bar : coupling.bars)
+    bars.push_back(
+        {{"struts", {names[bar.first], names[bar.second]}},
+         {"stiffness_to_mass",
+          {{names[bar.first], bar.first_stiffness_to_mass}, {names[bar.second], bar.second_stiffness_to_mass}}}});
+  return bars;
+}
+
+json forcesJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  json forces = json::object();
+  for (const KnownForceCoefficients& force : coupling.forces)
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      forces[force.name]["coefficients"][names[i]] = force.values[i];
+      forces[force.name]["stddevs"][names[i]] = force.stddevs[i];
+    }
+  return forces;
+}
+
+void printForces(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  for (const KnownForceCoefficients& force : coupling.forces) {
+    std::printf("one unit of %s accelerates the tops by [m/s^2]:", force.name.c_str());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      std::printf("%s %s %.4g +- %.2g", i > 0 ? "," : "", names[i].c_str(), force.values[i], force.stddevs[i]);
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+
+void printTable(const std::vector<MonitorReport>& reports) {
+  std::printf("                   damping/mass [1/s]           stiffness/mass [1/s^2]           free run\n");
+  std::printf(
+      "    time [s]  estimate       LS       LA   estimate         LS         LA rmse [m/s^2]  fit [%%]   valid\n");
+  for (const MonitorReport& report : reports)
+    std::printf("%12.2f %s %s %s %s %s %s %s %s   %s\n", toSeconds(report.stamp),
+                cell(9, 4, report.estimate.damping_to_mass).c_str(), cell(8, 4, report.ls.damping_to_mass).c_str(),
+                cell(8, 4, report.la.damping_to_mass).c_str(), cell(10, 4, report.estimate.stiffness_to_mass).c_str(),
+                cell(10, 4, report.ls.stiffness_to_mass).c_str(), cell(10, 4, report.la.stiffness_to_mass).c_str(),
+                cell(12, 4, report.comparison.rmse).c_str(), cell(8, 1, report.comparison.fit_percent).c_str(),
+                report.estimate.valid() ? "yes" : "no");
+}
+
+void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
+  const std::string doubt = estimate.valid() ? "" : "  NOT VALID: " + describe(estimate.doubt);
+  if (std::isnan(estimate.damping_to_mass)) {
+    std::printf("%s: nothing is known%s\n", name, doubt.c_str());
+    return;
+  }
+  std::printf("%s: damping/mass %s +- %s 1/s, stiffness/mass %s +- %s 1/s^2, %s%s\n", name,
+              cell(0, 4, estimate.damping_to_mass).c_str(), cell(0, 4, estimate.dampingAbsoluteStddev()).c_str(),
+              cell(0, 4, estimate.stiffness_to_mass).c_str(), cell(0, 4, estimate.stiffnessAbsoluteStddev()).c_str(),
+              describeOscillation(estimate).c_str(), doubt.c_str());
+  if (mass)
+    std::printf("    damping %.4g N s/m, stiffness %.5g N/m\n", *mass * estimate.damping_to_mass,
+                *mass * estimate.stiffness_to_mass);
+}
+
+void printEstimates(const IdentifyResult& found, const std::optional<double>& mass) {
+  std::printf("over the whole drive, %.0f blocks:\n", found.estimate.effective_rows);
+  printResult("estimate", found.estimate, mass);
+  std::printf("at its end, over the last %.0f rows:\n", found.la.effective_rows);
+  printResult("LS", found.ls, mass);
+  printResult("LA", found.la, mass);
+}
+
+json toJson(const StrutEstimate& estimate) {
+  json result = jsonOf(estimate);
+  result["rows"] = estimate.effective_rows;
+  result["valid"] = estimate.valid();
+  result["reason"] = estimate.valid() ? "" : describe(estimate.doubt);
+  result["natural_frequency"] = estimate.naturalFrequency();
+  result["damping_ratio"] = estimate.dampingRatio();
+  return result;
+}
+
+json toJson(const IdentifyResult& found, const std::string& change) {
+  json result = jsonOf(found);
+  result["estimate"] = toJson(found.estimate);
+  result["ls"] = toJson(found.ls);
+  result["la"] = toJson(found.la);
+  result["iv"] = result["estimate"];  // until the next version
+  if (!change.empty()) result["change"] = change;
+  return result;
+}
+
+void printChange(const std::string& change) {
+  if (!change.empty()) std::printf("%s\n", change.c_str());
+}
+
+void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {
+  const char* const doubt = estimate.valid() ? "" : "  NOT VALID: too little or too poor excitation";
+  if (std::isnan(estimate.damping_to_wheel_mass)) {
+    std::printf("%s: nothing is known of the wheel%s\n", name, doubt);
+    return;
+  }
+  std::printf(
+      "%s: damping/wheel mass %s +- %s 1/s, stiffness/wheel mass %s +- %s 1/s^2, tyre/wheel mass %s +- %s 1/s^2, "
+      "%s%s\n",
+      name, cell(0, 4, estimate.damping_to_wheel_mass).c_str(),
+      cell(0, 4, estimate.damping_to_wheel_mass_stddev).c_str(), cell(0, 2, estimate.stiffness_to_wheel_mass).c_str(),
+      cell(0, 2, estimate.stiffness_to_wheel_mass_stddev).c_str(), cell(0, 2, estimate.tyre_to_wheel_mass).c_str(),
+      cell(0, 2, estimate.tyre_to_wheel_mass_stddev).c_str(), describeHop(estimate).c_str(), doubt);
+  if (const auto ratio = massRatio(strut, estimate)) std::printf("    wheel mass / body mass %.4f\n", *ratio);
+}
+
+json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
+  json result = jsonOf(estimate);
+  result["rows"] = estimate.effective_rows;
+  result["valid"] = estimate.valid();
+  result["reason"] = estimate.valid() ? "" : describe(estimate.doubt);
+  result["wheel_hop_frequency"] = estimate.wheelHopFrequency();
+  result["valid"] = estimate.valid();
+  if (const auto ratio = massRatio(strut, estimate)) result["mass_ratio"] = *ratio;
+  return result;
+}
+
+void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
+  printForces(coupling, names);
+  if (names.size() < 2) return;
+  std::printf("how much of what a strut does to its own top reaches the others:\n%16s", "moved by");
+  for (const std::string& name : names) std::printf("  %14s", name.c_str());
+  std::printf("\n");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::printf("%16s", names[i].c_str());
+    for (std::size_t j = 0; j < names.size(); ++j)
+      if (i == j)
+        std::printf("  %14s", "1");
+      else
+        std::printf("  %6.3f +-%6.3f", coupling.ratios[i][j], coupling.stddevs[i][j]);
+    std::printf("\n");
+  }
+  if (!std::isnan(coupling.model_error))
+    std::printf("a rigid body on linear struts leaves %.2g %% of it unexplained\n", 100.0 * coupling.model_error);
+  for (const AntiRollBarFound& bar : coupling.bars)
+    std::printf("anti-roll bar between %s and %s: stiffness/mass %.4g and %.4g 1/s^2\n", names[bar.first].c_str(),
+                names[bar.second].c_str(), bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
+}
+
+json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps) {
+  json whole{{"silent", gaps.toJson()}};
+  if (vehicle.isStrutAlone()) return whole;
+  whole["struts"] = json::object();
+  whole["coupling"] = couplingJson(coupling.ratios, vehicle.names);
+  whole["coupling_stddevs"] = couplingJson(coupling.stddevs, vehicle.names);
+  whole["anti_roll_bars"] = barsJson(coupling, vehicle.names);
+  whole["known_forces"] = forcesJson(coupling, vehicle.names);
+  whole["model_error"] = coupling.model_error;
+  return whole;
+}
+
+void printBody(const BodyInertiaResult& found) {
+  if (!found.body) {
+    std::printf("%s\n", describe(found.doubt).c_str());
+    return;
+  }
+  const BodyInertia& body = *found.body;
+  std::printf(
+      "M/Iyy %.4g +- %.2g 1/m^2, M/Ixx %.4g +- %.2g 1/m^2, centre of gravity %.3g +- %.2g m ahead and %.3g +- %.2g m "
+      "to the left of where positions count from\n",
+      body.mass_to_pitch_inertia.value, body.mass_to_pitch_inertia.stddev, body.mass_to_roll_inertia.value,
+      body.mass_to_roll_inertia.stddev, body.x.value, body.x.stddev, body.y.value, body.y.stddev);
+}
+
+json toJson(const BodyInertiaResult& found) {
+  if (!found.body) return {{"reason", describe(found.doubt)}};
+  const BodyInertia& body = *found.body;
+  return {{"mass_to_pitch_inertia", body.mass_to_pitch_inertia.value},
+          {"mass_to_pitch_inertia_stddev", body.mass_to_pitch_inertia.stddev},
+          {"mass_to_roll_inertia", body.mass_to_roll_inertia.value},
+          {"mass_to_roll_inertia_stddev", body.mass_to_roll_inertia.stddev},
+          {"centre_of_gravity", {body.x.value, body.y.value}},
+          {"centre_of_gravity_stddev", {body.x.stddev, body.y.stddev}}};
+}
+
+}  // namespace suspension_health_monitor
