@@ -3,10 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "model_evaluator.h"
+#include "separating_drive.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/statistics.h"
@@ -60,96 +60,6 @@ double shareOfTurning(const Records& records, const HoldOut& held_out, const Lin
     if (whole > 0.0) most = std::max(most, 1.0 - judged.dot((turning - strut * told).cwiseAbs2()) / whole);
   }
   return most;
-}
-
-constexpr double kStraight = 0.005;  // of a reading: the nonlinearity of accelerometers
-
-/// How the motion of a kind of drive compares with that of the present one.
-struct MotionChange {
-  DriveKind kind;
-  double travel, travel_rate, time;
-};
-
-constexpr MotionChange kChanges[] = {
-    {DriveKind::kMoreTravel, 2.0, 2.0, 1.0},   {DriveKind::kLessTravel, 1.0 / 3.0, 1.0 / 3.0, 1.0},
-    {DriveKind::kSlower, 1.0, 1.0 / 3.0, 1.0}, {DriveKind::kQuicker, 1.0, 3.0, 1.0},
-    {DriveKind::kLonger, 1.0, 1.0, 3.0},
-};
-constexpr double kHelps = 2.0;  // times as different as in the drives at hand
-
-std::vector<StrutMotion> scaled(const std::vector<StrutMotion>& motion, const MotionChange& change) {
-  std::vector<StrutMotion> result = motion;
-  for (StrutMotion& m : result) {
-    m.travel *= change.travel;
-    m.travel_rate *= change.travel_rate;
-    m.time *= change.time;
-  }
-  return result;
-}
-
-Eigen::VectorXd totalForce(const StrutModel& model, const std::vector<StrutMotion>& motion,
-                           const LinearResponse& present) {
-  const Eigen::MatrixXd forces = forcesAlong(model, motion, present.ends(), present.rests());
-  Eigen::VectorXd total = model.damping_to_mass * forces.col(0) + model.stiffness_to_mass * forces.col(1);
-  for (std::size_t j = 0; j < model.effects.size(); ++j)
-    total += model.effects[j].coefficient * forces.col(2 + static_cast<Eigen::Index>(j));
-  return total;
-}
-
-/// rms difference of the least different model from the first, as a share of the first one's force.
-double difference(const LinearResponse& present, const std::vector<StrutModel>& models, const MotionChange& change) {
-  const std::vector<StrutMotion> motion = scaled(present.motion(), change);
-  const Eigen::VectorXd first = totalForce(models.front(), motion, present);
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < models.size(); ++i)
-    least = std::min(least, (totalForce(models[i], motion, present) - first).norm() / first.norm());
-  return least;
-}
-
-/// The best of a ranking, or the simplest that is as good, and all that cannot be told from the best.
-struct Selection {
-  EvaluatedModel chosen;
-  std::vector<std::string> group;
-  std::vector<StrutModel> models;  ///< of the group
-};
-
-/// A number more must pay as surely as another effect: a simpler rival is as good until it is clear that it is not.
-/// A rival whose z'' is hardly another one cannot be told from the best, however sure a long drive would be: no sensor
-/// is as straight, and what a filter before the sampling makes of a law may be what another law says (dry friction
-/// turns round as a digressive damper does).
-/// @pre the first of the ranking is fitted.
-Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOut& held_out) {
-  const EvaluatedModel& best = ranking.front();
-  Selection selection{best, {}, {}};
-  for (const EvaluatedModel& rival : ranking) {
-    if (!rival.ranked.fitted) continue;
-    const bool simpler = complexity(rival.ranked.model) < complexity(best.ranked.model);
-    const double chance = simpler ? kFalseAlarm / static_cast<double>(ranking.size()) : kSure;
-    const PairedTest gain = rival.gainOf(best);
-    const bool is_resolved = rival.loss - best.loss > square(kStraight) * held_out.measuredSquares();
-    const bool is_worse = gain.removed_share > kWorthHaving || isSignificant(gain, chance);
-    if (is_worse && is_resolved) continue;
-    selection.group.push_back(rival.added);
-    selection.models.push_back(rival.ranked.model);
-    if (!is_worse && complexity(rival.ranked.model) < complexity(selection.chosen.ranked.model))
-      selection.chosen = rival;
-  }
-  return selection;
-}
-
-/// The kind of drive on which models differ that the present drives cannot tell apart: of several kinds (rougher,
-/// smoother, slower, quicker, longer) the one in which the least different of them differs most from the first, their
-/// forces taken along the present motion scaled to that kind. kNoneHelps if none makes it at least twice as much.
-SeparatingDrive separatingDrive(const LinearResponse& present, const Selection& selection) {
-  const double here = difference(present, selection.models, {DriveKind::kNoneHelps, 1.0, 1.0, 1.0});
-  SeparatingDrive best{selection.group, DriveKind::kNoneHelps, kHelps * here, here};
-  for (const MotionChange& change : kChanges) {
-    const double there = difference(present, selection.models, change);
-    if (!(there > best.difference_there)) continue;
-    best.kind = change.kind;
-    best.difference_there = there;
-  }
-  return best;
 }
 
 using Names = std::vector<std::string>;

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "parameterization.h"
+
+namespace suspension_health_monitor {
+
+inline constexpr double kParameterStep = 1e-6;  // relative step of the numerical derivatives
+
+/// Residuals of one segment. Parameter blocks: the model, the segment's initial travel and travel rate.
+/// The arguments must outlive it.
+class SegmentCost : public ceres::CostFunction {
+ public:
+  /// @param index  of the segment.  @param mask  none: all samples.
+  /// @param scale  what the initial state is counted in.
+  /// @param outlier  where a residual begins to count as one [m/s^2].
+  SegmentCost(const Segments& segments, std::size_t index, const SampleMask* mask, const Parameterization& parameters,
+              const StrutModel& model, const MotionScale& scale, double outlier, CarriedMemories& memories)
+      : segment_(*segments[index]),
+        index_(index),
+        parameters_(parameters),
+        model_(model),
+        scale_(scale),
+        outlier_(outlier),
+        memories_(memories) {
+    for (std::size_t k = 0; k < segment_.size(); ++k)
+      if (mask == nullptr || (*mask)[k] != 0) used_.push_back(k);
+    set_num_residuals(static_cast<int>(used_.size()));
+    mutable_parameter_block_sizes()->push_back(parameters.size());
+    mutable_parameter_block_sizes()->push_back(2);
+  }
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    Eigen::VectorXd shared = Eigen::Map<const Eigen::VectorXd>(x[0], parameters_.size());
+    Eigen::VectorXd local = Eigen::Map<const Eigen::VectorXd>(x[1], 2);
+    Eigen::VectorXd base(num_residuals());
+    if (!evaluate(shared, local, base)) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = base.unaryExpr([this](double r) { return damp(r); });
+    if (jacobians == nullptr) return true;
+    return (jacobians[0] == nullptr || differentiate(shared, local, shared, base, jacobians[0])) &&
+           (jacobians[1] == nullptr || differentiate(shared, local, local, base, jacobians[1]));
+  }
+
+ private:
+  bool evaluate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& residuals) const {
+    StrutModel model = model_;
+    parameters_.apply(shared.data(), model);
+    StrutState state{0.0, 0.0, memories_.at(index_, model)};
+    state.travel = local[0] * scale_.travel;
+    state.travel_rate = local[1] * scale_.travel_rate;
+    std::vector<double> predicted;
+    if (!runFree(model, segment_, state, predicted)) return false;
+    for (std::size_t i = 0; i < used_.size(); ++i)
+      residuals[static_cast<Eigen::Index>(i)] = segment_.sprung[used_[i]] - predicted[used_[i]];
+    return true;
+  }
+
+  /// Derivative of the damped residuals with respect to `varied`, one of the two others. Row by row.
+  bool differentiate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& varied,
+                     const Eigen::VectorXd& base, double* jacobian) const {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor> columns(jacobian, num_residuals(), varied.size());
+    Eigen::VectorXd moved(num_residuals());
+    for (Eigen::Index i = 0; i < varied.size(); ++i) {
+      const double kept = varied[i];
+      double step = kParameterStep * std::max(1.0, std::abs(kept));
+      varied[i] = kept + step;
+      if (!evaluate(shared, local, moved)) {  // at the edge of stability: look the other way
+        step = -step;
+        varied[i] = kept + step;
+        if (!evaluate(shared, local, moved)) moved = base;  // on a ridge: it stays where it is
+      }
+      varied[i] = kept;
+      for (int k = 0; k < num_residuals(); ++k) columns(k, i) = (moved[k] - base[k]) / step * dampSlope(base[k]);
+    }
+    return true;
+  }
+
+  // Smooth Huber loss as a change of the residual: half its square is a^2 (sqrt(1 + (r/a)^2) - 1).
+  double damp(double r) const {
+    const double q = r / outlier_;
+    return std::copysign(outlier_ * std::sqrt(2.0 * q * q / (std::sqrt(1.0 + q * q) + 1.0)), r);
+  }
+
+  double dampSlope(double r) const {
+    const double q = r / outlier_;
+    const double damped = damp(r);
+    return damped == 0.0 ? 1.0 : r / (std::sqrt(1.0 + q * q) * damped);
+  }
+
+  const DriveSegment& segment_;
+  std::size_t index_;
+  const Parameterization& parameters_;
+  const StrutModel& model_;
+  MotionScale scale_;
+  double outlier_;
+  CarriedMemories& memories_;
+  std::vector<std::size_t> used_;
+};
+
+}  // namespace suspension_health_monitor
