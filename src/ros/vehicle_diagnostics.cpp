@@ -193,10 +193,10 @@ VehicleCoupling VehicleDiagnostics::coupling() const {
 
 void VehicleDiagnostics::publishCoupling() {
   CouplingInUse msg = toMsg(coupling(), monitor(), struts_, forces_);
-  if (told_ && saysTheSame(*told_, msg)) return;
+  if (last_coupling_ && saysTheSame(*last_coupling_, msg)) return;
   if (pipeline_ != nullptr) msg.header.stamp = toRosTime(pipeline_->newest());
   coupling_.publish(msg);
-  told_ = msg;
+  last_coupling_ = msg;
 }
 
 void VehicleDiagnostics::describeCoupling(Status& status) const {

@@ -75,7 +75,7 @@ class VehicleDiagnostics {
   std::vector<std::string> struts_, forces_;  // their names
   ros::Publisher diagnostics_;                // of all updaters, also of those of the struts
   ros::Publisher coupling_;
-  std::optional<CouplingInUse> told_;  // the last ~coupling
+  std::optional<CouplingInUse> last_coupling_;  // that was published
   TaskLog coupling_log_;
   std::optional<CornerOutput> corners_;
   const MessagePipeline* pipeline_ = nullptr;  // during publish() only

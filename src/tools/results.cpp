@@ -145,9 +145,6 @@ void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstim
 
 json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
   json result = jsonOf(estimate);
-  result["rows"] = estimate.effective_rows;
-  result["valid"] = estimate.valid();
-  result["reason"] = estimate.valid() ? "" : describe(estimate.doubt);
   result["wheel_hop_frequency"] = estimate.wheelHopFrequency();
   result["valid"] = estimate.valid();
   if (const auto ratio = massRatio(strut, estimate)) result["mass_ratio"] = *ratio;

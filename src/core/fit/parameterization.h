@@ -78,8 +78,8 @@ inline std::optional<DriveSizes> measureSizes(const Segments& segments, const st
   return sizes;
 }
 
-inline constexpr double kRangeMargin =
-    0.02;  // in the logarithm, between a start and the end of a range that is widened for it
+// In the logarithm, between a start and the end of a range that is widened for it.
+inline constexpr double kRangeMargin = 0.02;
 
 inline double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 

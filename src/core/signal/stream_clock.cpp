@@ -89,8 +89,8 @@ double StreamClock::medianSpacing(std::size_t over) const {
 
 // The sum of exp(2 pi i f t) over the stamps t is largest where f is the rate, however many readings are lost.
 double StreamClock::likeliestPeriod(double rough) const {
-  constexpr double kStep = 0.25 / kFirst,
-                   kMost = 1.0 / kLongestBatch;  // a quarter of a peak's width; one loss in each stretch
+  // A quarter of a peak's width; one loss in each stretch.
+  constexpr double kStep = 0.25 / kFirst, kMost = 1.0 / kLongestBatch;
   std::array<std::complex<double>, kFirst> now, turn;
   for (std::size_t i = 0; i < kFirst; ++i) {
     const double angle = 2.0 * M_PI * (first_[i] - first_[0]) / rough;

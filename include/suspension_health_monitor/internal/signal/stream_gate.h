@@ -26,9 +26,9 @@ class ReadingStatistics {
   double deviation() const { return deviation_.mean(); }  ///< mean distance from the mean
   double finestStep() const { return finest_step_; }      ///< smallest step other than 0 from one reading to the next
   double repeated() const { return repeated_.mean(); }    ///< share of readings that equal the one before, in [0, 1]
-  bool areUsual() const {
-    return std::min(mean_.weight(), repeated_.weight()) >= kFewestForUsual;
-  }  ///< they are enough
+
+  /// @return true if they are enough to tell what is usual.
+  bool areUsual() const { return std::min(mean_.weight(), repeated_.weight()) >= kFewestForUsual; }
 
  private:
   static constexpr double kFewestForUsual = 100.0;

@@ -37,10 +37,10 @@ StrutDrives makeNoiseDrive(const SensorNoise& noise, double period);
 /// accelerometer there is one reading that is good, and it is shared out among the struts by what they do not explain.
 ///
 /// The residual e_j of strut j is what the free run of its model leaves, all of it noise if the model is right. The
-/// noise of strut i is told by sum_jl h_jl e_j(k + l), l of a tenth of a second to either side, by the least squares
-/// whose moments are those of the known noise (Wiener's filter). To fit the strut to what that leaves is to fit all of
-/// them together: seemingly unrelated regressions (Zellner, J. Am. Stat. Ass. 57 (1962), 348-368). What a model lacks
-/// shows in the others, too, until it has been found.
+/// noise of strut i is estimated as sum_jl h_jl e_j(k + l), l of a tenth of a second to either side, by the least
+/// squares whose moments are those of the known noise (Wiener's filter). To fit the strut to what that leaves is to fit
+/// all of them together: seemingly unrelated regressions (Zellner, J. Am. Stat. Ass. 57 (1962), 348-368). What a model
+/// lacks shows in the others, too, until it has been found.
 /// @param drives  struts that are taken apart, one StrutDrives for each drive; their samples at the ends of a stretch
 /// are lost. If a model runs away all stay as they are.
 /// @param noise  of the same struts, as separateNoise() gives it; it becomes that of what is left.

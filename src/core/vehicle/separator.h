@@ -1,0 +1,123 @@
+#pragma once
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// Struts with what is known of them, to be separated again as more is known.
+class Separator {
+ public:
+  /// @param drives  must outlive this object.
+  Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+            const std::optional<double>& sample_period, const KnownModels& known)
+      : drives_(drives), period_(periodOf(drives, names, sample_period)) {
+    if (!known.empty() && known.size() != names.size())
+      throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
+                                  std::to_string(names.size()) + " or of none");
+    learnRows(names);
+    if (!coupling_) {
+      if (isUndersampled()) coupling_.reason += kWheelsFolded;
+      return;
+    }
+    models_ = rows_.models();
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (known[i]) models_[i] = *known[i];
+    noise_ = separateNoise(knownNoise(drives.front().noise, names.size()), period_, rows_);
+  }
+
+  const VehicleCoupling& coupling() const { return coupling_; }
+  const std::vector<StrutModel>& models() const { return models_; }
+  double period() const { return period_; }
+
+  void setModel(std::size_t strut, const StrutModel& model) { models_[strut] = model; }
+
+  /// @return true if one IMU tells of the tops of several struts.
+  bool sharesNoise() const { return mostStrutsOfASensor(drives_.front().noise) > 1; }
+
+  /// Fits the models of these struts to the drives as an estimator sees them, and takes them from then on.
+  /// @return what was fitted; nothing where that failed.
+  std::vector<std::optional<ModelFit>> fitModels(const std::vector<std::size_t>& struts) {
+    const std::vector<std::vector<Drive>> separated = separate(false);
+    std::vector<std::optional<ModelFit>> fits;
+    for (const std::size_t i : struts) {
+      const std::deque<DriveRecord> records = makeRecords(separated[i], period_, models_[i]);
+      fits.emplace_back(fitOutputError(pointersTo(records), {}, models_[i]));
+      if (fits.back()) models_[i] = fits.back()->model;
+    }
+    return fits;
+  }
+
+  /// @param for_search  without what the models as they are now tell of the noise of shared sensors. Their errors are
+  /// in there instead, of which an estimator's standard deviations would know nothing. The shared noise in one
+  /// strut is estimated from all others.
+  /// @return by strut and drive.
+  std::vector<std::vector<Drive>> separate(bool for_search) const {
+    std::vector<StrutDrives> drives;
+    for (const VehicleDrive& drive : drives_) drives.push_back(separateStruts(drive, period_, rows_, models_));
+    StrutDrives noise = noise_;
+    if (for_search && sharesNoise()) takeSharedNoise(drives, noise, period_, models_);
+    std::vector<std::vector<Drive>> struts(noise.size());
+    for (std::size_t i = 0; i < struts.size(); ++i) {
+      for (StrutDrives& drive : drives) struts[i].push_back(std::move(drive[i]));
+      struts[i].front().noise = std::move(noise[i].samples);
+    }
+    return struts;
+  }
+
+ private:
+  // Samples are what a grid made of the readings: every strut has two accelerometers, as it seems.
+  void learnRows(const std::vector<std::string>& names) {
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(names.size(), drives_.front().forces.size()), BlockOptions{},
+                         period_);
+    for (const VehicleDrive& drive : drives_) {
+      if (&drive != &drives_.front()) blocks.restart();
+      for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));
+    }
+    const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
+    const auto of_body_imu = static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise));
+    const VehicleMistake mistake =
+        blocks.claims(of_body_imu == names.size() ? drives_.front().places : StrutPlaces{}).find();
+    const bool are_known = rows && rows->areKnown() && !mistake.isContradiction();
+    std::optional<BodyFitResult> body;
+    if (are_known) {
+      if (names.size() > 1) body = BodyFit::of(names.size(), drives_.front().places).fit(*rows, blocks.rowsOfHalves());
+      rows_ = body ? body->combined(*rows) : *rows;
+    }
+    coupling_ = describe(are_known ? &rows_ : nullptr, body, are_known ? "" : whyNotCoupled(mistake, names),
+                         namesOf(drives_.front().forces));
+  }
+
+  bool isUndersampled() const {
+    return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
+      return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
+        const DriveRecord record(strut, period_);
+        return shareAtSamplingLimit({&record}) > kMostFolded;
+      });
+    });
+  }
+
+  const std::vector<VehicleDrive>& drives_;
+  double period_;
+  BodyRows rows_;
+  VehicleCoupling coupling_;
+  std::vector<StrutModel> models_;
+  StrutDrives noise_;  // empty without a coupling
+};
+
+bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
+
+}  // namespace suspension_health_monitor

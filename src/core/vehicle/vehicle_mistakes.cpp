@@ -1,0 +1,140 @@
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/blocks/block_bins.h"
+#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
+
+namespace suspension_health_monitor {
+
+namespace {
+
+using Kind = VehicleMistake::Kind;
+
+// Sizes to begin with. A clock that is off by more has another time altogether.
+const std::vector<double> kFactors{0.6, 0.8, 1.0, 1.2, 1.4, 1.6}, kOtherSign{-1.0};
+const std::vector<double> kDelays{-0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05};
+const std::vector<double> kShifts{-0.4, -0.2, 0.0, 0.2, 0.4};  // of the wheelbase, or of the track
+
+constexpr double kLeastTurning = 0.1;  // of the heave that wheels pass on
+
+double spreadOf(const StrutPlaces& places, std::size_t axis) {
+  const auto [least, most] = std::minmax_element(places.begin(), places.end(),
+                                                 [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+  return (*most)[axis] - (*least)[axis];
+}
+
+/// @return true if struts stand so far from one another along it that they see the body turn.
+bool isSpread(const StrutPlaces& places, std::size_t axis) {
+  return spreadOf(places, axis) > kSideBySide * std::max(spreadOf(places, 0), spreadOf(places, 1));
+}
+
+/// @return what heave, pitch and roll do to the tops; 0 about an axis on which all stand.
+Eigen::MatrixXd motionsOf(const StrutPlaces& places) {
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()), 3);
+  motions.col(0).setOnes();
+  for (const std::size_t axis : {0u, 1u})
+    for (std::size_t i = 0; i < places.size() && isSpread(places, axis); ++i)
+      motions(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(1 + axis)) = places[i][axis];
+  return motions;
+}
+
+}  // namespace
+
+bool VehicleMistake::isContradiction() const {
+  switch (kind) {
+    case Kind::kNone:
+    case Kind::kTooLittle:
+    case Kind::kAlike:
+    case Kind::kOthers: return false;
+    case Kind::kLateWheel:
+    case Kind::kLateTop:
+    case Kind::kLateTops:
+    case Kind::kLateBody: return std::abs(size) < kLeastDelay;
+    default: return true;
+  }
+}
+
+// At bounce and below a body follows its wheels, in pitch and roll as in heave. A gyro may have died: of the newest
+// half.
+bool VehicleClaims::hasDeadGyro() const {
+  const Eigen::Index count = (blocks_ + 1) / 2;
+  if (places_.empty() || count < kFewestBlocks / 2) return false;
+  Eigen::MatrixXd wheels = Eigen::MatrixXd::Zero(n_, n_), tops = wheels;
+  for (const Eigen::MatrixXcd& columns : columns_) {
+    const auto wheel = columns.topLeftCorner(n_, count), top = columns.block(n_, 0, n_, count);
+    const Eigen::MatrixXcd of_wheels = wheel * wheel.adjoint(), both = top * wheel.adjoint();
+    wheels += of_wheels.real();
+    tops += (both * of_wheels.completeOrthogonalDecomposition().solve(both.adjoint())).real();  // that goes with them
+  }
+  const Eigen::MatrixXd motions = motionsOf(places_).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::ArrayXd passed = (motions * tops * motions.transpose()).diagonal().array() /
+                                (motions * wheels * motions.transpose()).diagonal().array();
+  for (const std::size_t axis : {0u, 1u})
+    if (isSpread(places_, axis) && passed[static_cast<Eigen::Index>(1 + axis)] < square(kLeastTurning) * passed[0])
+      return true;
+  return false;
+}
+
+std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
+  std::vector<Hypothesis> all;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    all.push_back({Kind::kUpsideDown, {i, i}, {1.0}, [row](double, Mapping& m) { m.wheels.row(row) *= -1.0; }});
+    for (std::size_t j = i + 1; j < static_cast<std::size_t>(n_); ++j)
+      all.push_back({Kind::kSwapped, {i, j}, {1.0}, [row, j](double, Mapping& m) {
+                       m.wheels.row(row).swap(m.wheels.row(static_cast<Eigen::Index>(j)));
+                     }});
+  }
+  if (!places_.empty()) addPositions(all);
+  addDelays(all);
+  return all;
+}
+
+// Tops that the body's IMU tells of move with its heave, pitch and roll.
+void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
+  const Eigen::MatrixXd inverse = motionsOf(places_).completeOrthogonalDecomposition().pseudoInverse();
+  using Change = std::function<void(double size, StrutPlaces& places)>;
+  const auto add = [&](Kind kind, std::size_t strut, const std::vector<double>& sizes, const Change& change) {
+    all.push_back({kind, {strut, strut}, sizes, [places = places_, change, inverse, n = n_](double size, Mapping& m) {
+                     StrutPlaces other = places;
+                     change(size, other);
+                     m.tops.rightCols(n) = motionsOf(other) * inverse;
+                   }});
+  };
+  for (const std::size_t axis : {0u, 1u}) {
+    const double spread = spreadOf(places_, axis);
+    if (!isSpread(places_, axis)) continue;
+    const bool is_ahead = axis == 0;
+    const auto shifted = [axis](double size, StrutPlaces& other) {
+      for (auto& place : other) place[axis] += size;
+    };
+    std::vector<double> shifts;
+    for (const double share : kShifts) shifts.push_back(share * spread);
+    add(is_ahead ? Kind::kShiftAhead : Kind::kShiftSide, 0, shifts, shifted);
+    for (const std::vector<double>* sizes : {&kOtherSign, &kFactors}) {
+      const auto times = [axis](double size, StrutPlaces& other) {
+        for (auto& place : other) place[axis] *= size;
+      };
+      add(is_ahead ? Kind::kAhead : Kind::kSide, 0, *sizes, times);
+      for (std::size_t i = 0; i < places_.size(); ++i)
+        add(is_ahead ? Kind::kAheadOfOne : Kind::kSideOfOne, i, *sizes,
+            [axis, i](double size, StrutPlaces& other) { other[i][axis] *= size; });
+    }
+  }
+}
+
+void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    all.push_back({Kind::kLateWheel, {i, i}, kDelays, [at](double size, Mapping& m) { m.delays[at] = size; }});
+    if (places_.empty())
+      all.push_back(
+          {Kind::kLateTop, {i, i}, kDelays, [at, n = n_](double size, Mapping& m) { m.delays[n + at] = size; }});
+  }
+  const Kind all_tops = places_.empty() ? Kind::kLateTops : Kind::kLateBody;
+  all.push_back({all_tops, {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
+}
+
+}  // namespace suspension_health_monitor

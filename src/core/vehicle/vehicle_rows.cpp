@@ -1,0 +1,121 @@
+// What VehicleBlocks knows of all blocks at once.
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
+
+namespace suspension_health_monitor {
+
+std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
+  // Blocks of another length before may be those of most of the drive.
+  const bool is_earlier = longest_.time() > OfLength::time(length_, estimators_);
+  if (!has_model_ && !is_earlier) return std::nullopt;
+  BlockEstimator& estimator = (is_earlier ? longest_.estimators : estimators_)[strut];
+  const std::optional<WindowEstimate> of_drive = estimator.overTheDrive();
+  const auto& all = estimator.ofAllBlocks();
+  if (!of_drive || (!all && !isAlone())) return std::nullopt;
+  TopEstimate result = estimates_[strut];
+  static_cast<WindowEstimate&>(result) = *of_drive;
+  result.length = is_earlier ? longest_.length : length_;
+  if (isAlone()) return result;
+  // Noise of wheels that move alike draws every block the same way: more blocks do not help.
+  result.alike = std::max(result.alike, all->alike);
+  for (const int i : {kBlockDamping, kBlockStiffness})
+    result.covariance(i, i) += std::pow(all->alike * result.theta[i], 2);
+  return result;
+}
+
+void VehicleBlocks::beginRows(BodyRows& rows) const {
+  const auto n = static_cast<Eigen::Index>(size());
+  rows.is_by_body = isByBody();
+  rows.rate.resize(n, n);
+  rows.travel.resize(n, n);
+  rows.force.resize(n, static_cast<Eigen::Index>(vehicle_.known_forces.size()));
+  rows.force_stddev.resize(rows.force.rows(), rows.force.cols());
+  rows.covariance.resize(size());
+  for (Eigen::MatrixXd& covariance : rows.covariance) covariance.resize(2 * n, 2 * n);
+}
+
+// What others see of a strut's damper is what its friction acts as, too.
+void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
+  const auto n = static_cast<Eigen::Index>(size()), i = static_cast<Eigen::Index>(strut);
+  using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;
+  Selection selection = Selection::Zero(2 * n, estimate.theta.size());
+  for (std::size_t j = 0; j < size(); ++j) {
+    const int at = columnOf(strut, j);
+    selection(static_cast<Eigen::Index>(j), at) = selection(n + static_cast<Eigen::Index>(j), at + 1) = 1.0;
+  }
+  if (looksForFriction()) selection(i, columns_.firstForce()) = estimate.frictionGain();
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate.theta;
+  rows.rate.row(i) = row.head(n).transpose();
+  rows.travel.row(i) = row.tail(n).transpose();
+  rows.covariance[strut].noalias() = selection * (estimate.covariance * selection.transpose()).eval();
+  for (Eigen::Index k = 0; k < rows.force.cols(); ++k) {
+    const int at = columns_.firstForce() + firstKnownForce() + static_cast<int>(k);
+    rows.force(i, k) = estimate.theta[at];
+    const double variance = estimate.covariance(at, at);
+    rows.force_stddev(i, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
+  }
+}
+
+bool VehicleBlocks::rows(BodyRows& rows) const {
+  if (!has_model_) return false;
+  for (const BlockEstimator& each : estimators_)
+    if (!each.ofAllBlocks()) return false;
+  beginRows(rows);
+  for (std::size_t i = 0; i < size(); ++i) setRow(i, *estimators_[i].ofAllBlocks(), rows);
+  return true;
+}
+
+std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
+  BodyRows rows;
+  beginRows(rows);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto estimate = overTheDrive(i);
+    if (!estimate) return std::nullopt;
+    setRow(i, *estimate, rows);
+  }
+  return rows;
+}
+
+VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
+  const auto n = static_cast<Eigen::Index>(size());
+  const Modulation modulation(estimators_.front().equations().band());
+  const Eigen::ArrayXcd s = modulation.s();
+  const auto num_forces = static_cast<Eigen::Index>(vehicle_.known_forces.size());
+  VehicleClaims claims(size(), vehicle_.known_forces.size(), s, of_body_imu, estimators_.front().count());
+  VehicleClaims::Spectra wheels, tops;
+  Eigen::ArrayXXcd forces(s.size(), num_forces);
+  for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
+  for (int age = 0; age < estimators_.front().count(); ++age) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const StrutBlock& block = estimators_[static_cast<std::size_t>(i)].block(age);
+      for (std::size_t p = 0; p < 3; ++p) {
+        modulation.apply(p, block.wheel, wheels[p].col(i));
+        tops[p].col(i) = block.body.col(static_cast<Eigen::Index>(p));
+      }
+    }
+    const StrutBlock& first = estimators_.front().block(age);
+    for (Eigen::Index k = 0; k < num_forces; ++k)
+      modulation.apply(2, first.forces.col(firstKnownForce() + k), forces.col(k));
+    claims.add(wheels, tops, forces);
+  }
+  return claims;
+}
+
+std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {
+  std::vector<BodyRows> halves(2);
+  for (BodyRows& half : halves) beginRows(half);
+  for (std::size_t i = 0; i < size(); ++i) {
+    // The block between both shares readings with each.
+    const int count = (estimators_[i].count() - 1) / 2;
+    for (const std::size_t half : {0, 1}) {
+      const auto estimate = estimators_[i].ofBlocks(half == 0 ? estimators_[i].count() - count : 0, count);
+      if (!estimate || !has_model_) return {};
+      setRow(i, *estimate, halves[half]);
+    }
+  }
+  return halves;
+}
+
+}  // namespace suspension_health_monitor
