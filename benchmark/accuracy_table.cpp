@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "field_monitor.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "field_drive.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/strut_monitor.h"
 
 namespace suspension_health_monitor {

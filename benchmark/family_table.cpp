@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "drive_families.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "field_drive.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
 

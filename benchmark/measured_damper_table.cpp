@@ -7,9 +7,9 @@
 #include <string>
 
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/statistics.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "vehicle_case.h"
 
 namespace {

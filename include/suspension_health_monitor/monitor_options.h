@@ -9,6 +9,8 @@ namespace suspension_health_monitor {
 struct HealthThresholds {
   std::optional<double> nominal_damping_to_mass;    ///< b1 of the healthy strut [1/s]
   std::optional<double> nominal_stiffness_to_mass;  ///< b0 of the healthy strut [1/s^2]
+  std::optional<double> nominal_friction;           ///< its dry friction beside b1, over the body's mass [m/s^2]
+  std::optional<double> nominal_friction_gain;      ///< 1 m/s^2 of it acted as so much of b1 where b1 is from [s/m]
   double damping_warn = 0.15;                       ///< relative change that is a warning [-]
   double damping_error = 0.30;                      ///< relative change that is an error [-]
   double stiffness_warn = 0.15;                     ///< [-]

@@ -66,8 +66,9 @@ struct StrutEstimate {
   double damping_to_mass_stddev = std::nan("");    ///< [1/s]; changes are judged by it; that of LS and LA is of their
                                                    ///< own scatter only
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
-  double damping_model_stddev = 0.0;    ///< what links, bushings and laws that no model has do to b1 [1/s]: not to its
-  double stiffness_model_stddev = 0.0;  ///< changes; of b0 [1/s^2]. In struts of a vehicle (BodyFit)
+  double damping_model_stddev = 0.0;  ///< of b1, by what the model lacks: links, bushings, laws [1/s]. It is no part of
+                                      ///< changes, and 0 but in struts of a vehicle (BodyFit)
+  double stiffness_model_stddev = 0.0;  ///< likewise of b0 [1/s^2]
   double correlation = 0.0;             ///< of the errors of b1 and b0 [-]; of the block estimate
   std::size_t num_effects = 0;          ///< in the model
   std::array<double, kMostEffects> coefficients = unknownCoefficients();  ///< c_j [unit of the effect's coefficient]
@@ -80,8 +81,8 @@ struct StrutEstimate {
   double gain_stddev = std::nan("");    ///< [-]
   std::optional<DryFriction> friction;  ///< of the blocks; empty: other effects are in the model
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
-  double explained = 0.0;  ///< share of what was measured: of mean sizes of rows (LS, LA), of the body's power (blocks)
-  double tails = 0.0;      ///< mean square of the residuals of LS, LA over their squared mean size [-]: 1.57 if normal
+  double explained = 0.0;               ///< LS, LA: 1 - mean |epsilon| / mean |psi|; blocks: share of the body's power
+  double tails = 0.0;  ///< mean square of the residuals of LS, LA over their squared mean size [-]: 1.57 if normal
   double age = std::nan("");                     ///< of what the block estimate rests on [s], on average
   double window = std::nan("");                  ///< span of its blocks [s]
   std::optional<double> temperature;             ///< of the damper [deg C]; empty: it has no thermometer
@@ -135,11 +136,12 @@ struct TyreReport {
 
 /// The model, driven by the measured wheel acceleration, against the measured body acceleration at one sample.
 struct ComparisonReport {
-  bool has_sample = false;          ///< false at the first FreeRun::kDelay samples of a series: the rest then holds
-  Stamp stamp{};                    ///< of the compared sample, FreeRun::kDelay before the newest
-  double measured = std::nan("");   ///< z'' [m/s^2]
-  std::optional<double> predicted;  ///< by the free run with LA's parameters [m/s^2]; empty until it has settled
-  double rmse = std::nan("");       ///< over the window [m/s^2]; renewed every few samples, as what follows
+  bool has_sample = false;         ///< false at the first FreeRun::kDelay samples of a series: the rest then holds
+  Stamp stamp{};                   ///< of the compared sample, FreeRun::kDelay before the newest
+  double measured = std::nan("");  ///< z'' [m/s^2]
+  std::optional<double>
+      predicted;               ///< by the free run with the estimate's parameters [m/s^2]; empty until it has settled
+  double rmse = std::nan("");  ///< over the window [m/s^2]; renewed every few samples, as what follows
   double fit_percent = std::nan("");
   double base_rmse = std::nan("");  ///< the same of the model without effects
   double base_fit_percent = std::nan("");
@@ -191,8 +193,8 @@ struct Baseline {
   std::optional<double> stiffness_to_mass;  ///< b0 [1/s^2]
   double damping_to_mass_stddev = 0.0;      ///< [1/s]
   double stiffness_to_mass_stddev = 0.0;    ///< [1/s^2]
-  /// By how much windows of the healthy strut scatter beyond their own standard deviations: as side forces in bends
-  /// make of it [1/s], [1/s^2]. In the standard deviation of every change.
+  /// By how much windows of the healthy strut scatter beyond their own standard deviations, for example by side forces
+  /// in bends [1/s], [1/s^2]. In the standard deviation of every change.
   double damping_scatter = 0.0, stiffness_scatter = 0.0;
   std::optional<DryFriction> friction;           ///< when it was learned; empty: it is not known
   std::optional<DamperTemperature> temperature;  ///< likewise
@@ -216,7 +218,7 @@ struct HealthReport {
   HealthLevel stiffness_level = HealthLevel::kOk;
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why the estimate of the blocks is not valid
   bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant
-  bool friction_doubt = false;  ///< mostly since dry friction makes so much of the estimates on this road
+  bool friction_doubt = false;  ///< `uncertain`, mainly because friction acts otherwise than on the baseline's road
   LoadDoubt load_doubt = LoadDoubt::kNone;
   bool early_warning = false;  ///< a small change is certain before it reaches a threshold; raises no level
   bool outliers = false;       ///< residuals of LS have had heavy tails for long: outliers or saturation
@@ -244,13 +246,11 @@ struct InputStatus {
   std::uint64_t gaps = 0;      ///< interruptions of at least one sample, after which the filter filled anew
   std::uint64_t restarts = 0;  ///< times that the clock went back and the series began anew
   double mean_period = 0.0;    ///< of uninterrupted samples of late [s], as of the newest judgement; 0: none yet
-  bool period_fits = true;     ///< mean_period is within kPeriodTolerance of the sample period, or not yet certain
+  bool period_fits = true;     ///< mean_period is within 2 % of the sample period, or not yet certain
   bool unit_fits = true;       ///< no mean reading is that of a sensor in g
 
-  double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, likewise, in [0, 1]
+  double beyond_strut = 0.0;        ///< share of the body's power above the strut's band, in [0, 1]
   double beyond_strut_level = 0.0;  ///< and its rms [m/s^2]
-
-  static constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
 };
 
 /// @return that a sensor shakes as the estimation cannot follow, in words; empty if none does.

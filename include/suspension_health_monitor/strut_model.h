@@ -40,6 +40,9 @@ struct StrutModel {
 
   LinearStrut linearPart() const { return {damping_to_mass, stiffness_to_mass}; }
 
+  /// @return true if b1 > 0 and b0 > 0; not for NaN.
+  bool isDampedSpring() const { return damping_to_mass > 0.0 && stiffness_to_mass > 0.0; }
+
   /// @param memory  one state per effect, those without memory included.
   /// @return z'' [m/s^2].
   double force(double travel, double travel_rate, double time, const Memory* memory) const {

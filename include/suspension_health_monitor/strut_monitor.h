@@ -19,7 +19,7 @@ class VehiclePipeline;
 /// nodelet does, without messages.
 ///
 ///     StrutMonitor monitor({}, [](const MonitorReport& report) {
-///       if (report.la.valid()) use(report.la.damping_to_mass, report.la.stiffness_to_mass, report.health.level);
+///       if (report.estimate.valid()) use(report.estimate.damping_to_mass, report.estimate.stiffness_to_mass);
 ///     });
 ///     monitor.push(Side::kSprung, stamp, body_acceleration);      // as readings come, in any interleaving
 ///     monitor.push(Side::kUnsprung, stamp, wheel_acceleration);

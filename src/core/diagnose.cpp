@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <deque>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
 #include "suspension_health_monitor/internal/record/motion_range.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "suspension_health_monitor/internal/statistics.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 
 namespace suspension_health_monitor {
 

@@ -4,7 +4,7 @@
 #include "callback_lock.h"
 #include "options.h"
 #include "readings.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/strut_monitor.h"
 
 namespace suspension_health_monitor {

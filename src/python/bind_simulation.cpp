@@ -43,7 +43,7 @@ Simulation simulateArrays(const OptionMap& keywords, const EffectLibrary& librar
   DriveSimulator simulator(options.drive);
   Simulation made;
   const double start = options.playing.start_time, gravity = options.publishing.gravity;
-  const double body_gravity = SensorFaults::from(options.drive.hidden_faults).readAtRest(gravity);
+  const double body_gravity = SimulatedFaults::from(options.drive.hidden_faults).readAtRest(gravity);
   while (const std::optional<DriveSample> sample = simulator.next()) {
     const double now = toSeconds(sample->stamp);
     made.body.add(start, sample->sprung, body_gravity);

@@ -4,6 +4,7 @@
 
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
@@ -79,7 +80,7 @@ std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& 
     recording.forEach([&](Side side, Stamp stamp, double value) {
       if (side == Side::kRoad) return;
       work.step();
-      if (grid.push(indexOf(side), stamp + shift, &value)) dropNewest(drive.samples, AlignmentJudge::kOutcomes);
+      if (grid.push(indexOf(side), stamp + shift, &value)) dropNewest(drive.samples, kSignalTuning.outcomes);
     });
   }
   return drives;

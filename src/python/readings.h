@@ -11,7 +11,7 @@
 
 #include "long_work.h"
 #include "suspension_health_monitor/drive.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 
 namespace suspension_health_monitor {
 

@@ -11,7 +11,7 @@ Identification Identification::of(const IdentifyResult& found, const VehiclePipe
   Identification result;
   static_cast<IdentifyResult&>(result) = found;
   result.mean_period = monitor.input().mean_period;
-  result.alignment = made.grid()->streams().describeAlignment();
+  result.alignment = describeAlignment(made.grid()->streams());
   result.bridged = made.grid()->streams().bridged();
   if (made.tyre() != nullptr) result.tyre = made.tyre()->report();
   result.sprung_mass = monitor.options().sprung_mass;

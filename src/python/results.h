@@ -8,10 +8,10 @@
 
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/digest.h"
-#include "suspension_health_monitor/internal/monitor/drive_identification.h"
-#include "suspension_health_monitor/internal/monitor/health_log.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/math/digest.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/wording/health_log.h"
 
 namespace suspension_health_monitor {
 

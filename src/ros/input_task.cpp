@@ -9,7 +9,8 @@
 
 #include "conversions.h"
 #include "strut_diagnostics.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -202,8 +203,8 @@ void InputTask::describeSeries(const MessagePipeline& pipeline, Status& status) 
     status.add("clock jumps", input.restarts);
   }
   if (const VehicleGrid* grid = pipeline.grid()) {
-    if (!grid->streams().resamples()) warn(grid->streams().whatIsTooSlow(), status);
-    status.add("alignment", grid->streams().describeAlignment());
+    if (!grid->streams().resamples()) warn(describeSlowReadings(grid->streams()), status);
+    status.add("alignment", describeAlignment(grid->streams()));
     status.add("bridged", grid->streams().bridged());
     if (const std::string leans = suspension_health_monitor::describe(grid->bodyLevel()); !leans.empty())
       status.add("body IMU", leans);

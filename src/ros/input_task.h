@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "message_pipeline.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/signal/stream_silence.h"
 #include "vehicle_options.h"
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
 
@@ -105,7 +105,7 @@ void checkCertain(const char* name, double value, double stddev, double error, d
   if (stddev / value * min_significance <= std::log1p(error)) return;
   throw std::runtime_error(formatted(
       "too uncertain to judge by: %s = %.3g +- %.3g, so that damage of %.3g %% would not be significant; drive "
-      "on, or on a rougher road",
+      "on, or use a rougher road",
       name, value, stddev, 100.0 * error));
 }
 

@@ -8,8 +8,8 @@
 
 #include "model_file.h"
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/text.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "conversions.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/signal/recent_samples.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_options.h"
 #include "vehicle_sensors.h"

@@ -3,8 +3,8 @@
 #include <regex>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {

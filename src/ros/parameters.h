@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 
 namespace suspension_health_monitor {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 
 namespace suspension_health_monitor {
 

@@ -57,7 +57,7 @@ MessagesOnTopics messagesOf(const SimulatorOptions& options, const DriveSample& 
   const double gravity = options.publishing.gravity;
   MessagesOnTopics messages;
   if (sample.sprung) {
-    const double read_at_rest = SensorFaults::from(drive.hidden_faults).readAtRest(gravity);
+    const double read_at_rest = SimulatedFaults::from(drive.hidden_faults).readAtRest(gravity);
     sensor_msgs::Imu imu = imuOf(*sample.sprung, read_at_rest, start, "sprung_imu");
     addSway(sample.body, drive.body_rate > 0.0, imu);
     messages.emplace_back(kSprungTopic, imu);

@@ -9,7 +9,7 @@
 
 #include "conversions.h"
 #include "parameters.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "model_file.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "live_model.h"
-#include "suspension_health_monitor/internal/monitor/health_log.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/wording/health_log.h"
 #include "task_log.h"
 
 namespace suspension_health_monitor {

@@ -8,7 +8,8 @@
 
 #include "conversions.h"
 #include "strut_diagnostics.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 

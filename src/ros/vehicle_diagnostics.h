@@ -13,7 +13,7 @@
 
 #include "message_pipeline.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "task_log.h"
 #include "vehicle_options.h"

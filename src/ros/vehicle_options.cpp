@@ -8,8 +8,8 @@
 
 #include "live_model.h"
 #include "model_file.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {
@@ -84,7 +84,8 @@ void dropNominalOfIncompleteModels(VehicleOptions& options) {
     if (strut.shell.model_file.empty() || !(damping || stiffness)) continue;
     const std::string& name = options.layout.struts[i].name;
     prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
-      if (!LiveModel(strut.shell, options.model_of[i]).isComplete()) damping = stiffness = std::nullopt;
+      if (!LiveModel(strut.shell, options.model_of[i]).isComplete())
+        damping = stiffness = strut.monitor.nominal_friction = std::nullopt;
     });
   }
 }

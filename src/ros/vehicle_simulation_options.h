@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "simulator_options.h"
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
 
 namespace suspension_health_monitor {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -109,10 +109,13 @@ OptionMap parseYaml(const std::string& text, const std::string& name) {
 
 OptionMap readYaml(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw std::invalid_argument(path + ": is a folder, must be a YAML file");
+  std::error_code error;
+  if (std::filesystem::is_fifo(path, error)) throw std::invalid_argument(path + ": is a pipe, must be a YAML file");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": cannot be read" + inWhichFolder(path) + ", must be a YAML file");
   std::string text(kLargestText + 1, '\0');  // and no more, of what may have no end
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) throw std::invalid_argument(path + ": cannot be read, must be a YAML file");
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parseYaml(text, path);
 }

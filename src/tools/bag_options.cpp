@@ -11,7 +11,7 @@
 #include "../ros/vehicle_sensors.h"
 #include "bag_file.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace po = boost::program_options;

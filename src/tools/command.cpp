@@ -9,7 +9,7 @@
 #include <set>
 
 #include "../ros/yaml_settings.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../ros/whole_file.h"
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 
 namespace suspension_health_monitor {
 

@@ -8,7 +8,7 @@
 #include "long_work.h"
 #include "recorded_drives.h"
 #include "results.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

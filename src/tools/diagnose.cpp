@@ -7,8 +7,8 @@
 #include "recorded_drives.h"
 #include "report_page.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {

@@ -11,9 +11,10 @@
 #include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
-#include "suspension_health_monitor/internal/digest.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/digest.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
@@ -76,7 +77,8 @@ json toJson(const HealthCourse& course) {
 
 bool isDelayed(const StrutEstimate& estimate) {
   constexpr double kBeyondDoubt = 3.0;  // standard deviations
-  return std::abs(estimate.delay) > kBeyondDoubt * estimate.delay_stddev && estimate.explained > kNearlyAll;
+  return std::abs(estimate.delay) > kBeyondDoubt * estimate.delay_stddev &&
+         estimate.explained > kBlockTuning.nearly_all;
 }
 
 void printBlocks(const StrutEstimate& estimate, const std::optional<double>& mass) {

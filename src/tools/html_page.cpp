@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "command.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

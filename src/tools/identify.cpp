@@ -6,9 +6,9 @@
 #include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
-#include "suspension_health_monitor/internal/digest.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/math/digest.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
@@ -55,7 +55,7 @@ struct Found {
 
 json toJson(const RecordedMonitor& recorded, const Found& found) {
   json whole = wholeJson(recorded.vehicle(), found.vehicle.coupling, recorded.gaps());
-  whole["alignment"] = recorded.grid().describeAlignment();
+  whole["alignment"] = describeAlignment(recorded.grid());
   whole["bridged"] = recorded.grid().bridged();
   const RejectCounts counts = recorded.pipeline().rejected();
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i)

@@ -11,7 +11,7 @@
 #include "bag_file.h"
 #include "command.h"
 #include "long_work.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -29,14 +29,14 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
     return true;
   };
   take.body = [&](const BodyMotion& motion) { drive.struts.front().body.push_back(motion); };
-  take.take_back = [&] { dropNewest(drive, AlignmentJudge::kOutcomes); };
+  take.take_back = [&] { dropNewest(drive, kSignalTuning.outcomes); };
   const ReadSamples samples = readSamples(bag, options, layout, take);
   const VehicleGrid& grid = samples.grid;
   grid.describe(drive);
   drive.places = grid.vehicle().places();
   read.num_instants = grid.numInstants();
   read.body_level = grid.bodyLevel();
-  read.alignment = grid.streams().describeAlignment();
+  read.alignment = describeAlignment(grid.streams());
   const VehicleStreams streams(layout);
   for (std::size_t i = 0; i < samples.rejected.size(); ++i)
     read.sensors.push_back({streams.sensors[i].topic, samples.rejected[i], grid.missed(i)});

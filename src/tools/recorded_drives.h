@@ -7,6 +7,7 @@
 #include "bag_options.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"
@@ -18,7 +19,7 @@ struct SampleSinks {
   std::function<bool(const VehicleSample&)> sample;  ///< returns false to stop
   /// Of a vehicle with one strut: what its body's IMU measures across the strut, in the order of the stamps.
   std::function<void(const BodyMotion&)> body = {};
-  /// The grid begins to resample: the newest AlignmentJudge::kOutcomes samples were badly paired.
+  /// The grid begins to resample: the newest kSignalTuning.outcomes samples were badly paired.
   std::function<void()> take_back = {};
 };
 
@@ -40,7 +41,7 @@ struct VehicleBag {
   /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
   VehicleDrive drive;
   std::uint64_t num_instants;
-  std::string alignment;  ///< StreamGrid::describeAlignment()
+  std::string alignment;  ///< describeAlignment()
   BodyLevel body_level;
   /// What became of one sensor's messages.
   struct Sensor {

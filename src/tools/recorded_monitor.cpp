@@ -9,8 +9,9 @@
 #include "../ros/live_model.h"
 #include "command.h"
 #include "recorded_drives.h"
-#include "suspension_health_monitor/internal/text.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -87,7 +88,7 @@ std::string RecordedMonitor::whyTooLittle() const {
 void RecordedMonitor::printInput() const {
   gaps_.print();
   printPeriod(options_, *pipeline_.period());
-  printReadings(pipeline_.grid()->numInstants(), grid().describeAlignment(), pipeline_.grid()->bodyLevel());
+  printReadings(pipeline_.grid()->numInstants(), describeAlignment(grid()), pipeline_.grid()->bodyLevel());
   for (std::size_t i = 0; i < topics_.size(); ++i) printRejected(topics_[i], pipeline_.rejected(i));
   for (const std::size_t i : options_.vehicle.asked) {
     const InputStatus& input = strut(i).input();

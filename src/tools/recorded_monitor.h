@@ -6,7 +6,7 @@
 
 #include "../ros/message_pipeline.h"
 #include "strut_files.h"
-#include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/wording/health_log.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {

@@ -5,7 +5,7 @@
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/wording/health_log.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 // The fields of results that users see: keys of JSON and attributes in Python, by the names that they have here. What

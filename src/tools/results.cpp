@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "json_of.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
@@ -14,7 +14,8 @@ using nlohmann::json;
 namespace {
 
 std::string cell(int width, int precision, double value) {
-  return std::isnan(value) ? formatted("%*s", width, "-") : formatted("%*.*f", width, precision, value);
+  if (std::isfinite(value)) return formatted("%*.*f", width, precision, value);
+  return formatted("%*s", width, std::isnan(value) ? "-" : "unknown");
 }
 
 // A negative stiffness has no frequency.

@@ -7,8 +7,8 @@
 #include "../ros/whole_bag.h"
 #include "command.h"
 #include "long_work.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

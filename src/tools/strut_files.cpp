@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -12,9 +13,11 @@
 #include "../ros/model_file.h"
 #include "../ros/yaml_settings.h"
 #include "command.h"
+#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/health/baseline.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -58,12 +61,15 @@ std::string head(const std::vector<std::string>& drives, const char* load) {
 
 std::string ownSettings(const StrutOfDrive& found, const char* indent) {
   const StrutEstimate& strut = found.strut;
-  return formatted("%sintegration_horizon: %.6g  # [s]\n%snominal:  # %s\n", indent, found.horizon, indent,
-                   found.by.c_str()) +
-         formatted("%s  damping_to_mass: %.6g  # +- %.2g 1/s\n", indent, strut.damping_to_mass,
-                   strut.damping_to_mass_stddev) +
-         formatted("%s  stiffness_to_mass: %.6g  # +- %.2g 1/s^2\n", indent, strut.stiffness_to_mass,
-                   strut.stiffness_to_mass_stddev);
+  std::string text = formatted("%sintegration_horizon: %.6g  # [s]\n%snominal:  # %s\n", indent, found.horizon, indent,
+                               found.by.c_str()) +
+                     formatted("%s  damping_to_mass: %.6g  # +- %.2g 1/s\n", indent, strut.damping_to_mass,
+                               strut.damping_to_mass_stddev) +
+                     formatted("%s  stiffness_to_mass: %.6g  # +- %.2g 1/s^2\n", indent, strut.stiffness_to_mass,
+                               strut.stiffness_to_mass_stddev);
+  if (!strut.friction || std::abs(strut.friction->force) <= kLikely * strut.friction->stddev) return text;
+  return text + formatted("%s  friction: %.6g  # +- %.2g m/s^2\n%s  friction_gain: %.6g  # [s/m], on that road\n",
+                          indent, strut.friction->force, strut.friction->stddev, indent, strut.friction->damping_gain);
 }
 
 bool isIdentified(const std::string& name) {

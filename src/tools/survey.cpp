@@ -8,9 +8,10 @@
 #include "bag_options.h"
 #include "command.h"
 #include "recorded_drives.h"
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/record/motion_range.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
+#include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 namespace suspension_health_monitor {
@@ -92,7 +93,7 @@ BagOptions readBagOptions(const boost::program_options::variables_map& values) {
     common.integration_horizon = rough->horizonSamples(options.period()) * options.period();
     options.settings.struts.front().monitor.integration_horizon = common.integration_horizon;
     // Laws with memory turn the phase as a delay does: of a strut that explains nearly all, on a wide band, it is one.
-    if (range && range->isWide() && rough->explained > kNearlyAll && rough->clocksDiffer(options.period()))
+    if (range && range->isWide() && rough->explained > kBlockTuning.nearly_all && rough->clocksDiffer(options.period()))
       options.clock_offset = rough->clock_offset;
   }
   return options;

@@ -6,7 +6,7 @@
 
 #include "command.h"
 #include "long_work.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -74,7 +74,7 @@ def flat(settings, prefix=""):
                                 else {prefix + name: nested}).items()}
 
 
-@pytest.mark.parametrize("of, count", [("monitor", 36), ("simulator", 31)])
+@pytest.mark.parametrize("of, count", [("monitor", 38), ("simulator", 31)])
 def test_shipped_settings_show_every_option_with_its_default(program, of, count):
     """The commented ones, too; of those that have no default an example."""
     lines = program.succeed("options", of).splitlines()

@@ -38,7 +38,7 @@ def test_library_has_files():
     ("# include <tf2_ros/buffer.h>", ROS_INCLUDE), ("#include <diagnostic_updater/publisher.h>", ROS_INCLUDE),
     ("#include <suspension_health_monitor/SuspensionHealth.h>", GENERATED_INCLUDE),
     ('#include "suspension_health_monitor/internal/simulation/road.h"', SIMULATION_INCLUDE),
-    ('#include "suspension_health_monitor/internal/statistics.h"', INTERNAL_INCLUDE)])
+    ('#include "suspension_health_monitor/internal/math/statistics.h"', INTERNAL_INCLUDE)])
 def test_rule_sees_a_forbidden_include(include, pattern):
     assert pattern.match(include)
 
@@ -57,6 +57,25 @@ def test_estimation_includes_no_simulation(path):
 @pytest.mark.parametrize("path", PUBLIC, ids=name)
 def test_public_headers_and_examples_include_nothing_internal(path):
     assert includes(path, INTERNAL_INCLUDE) == []
+
+
+# From below: a folder of the library includes those before it, and itself. What stands in no folder, the public calls, is
+# on top. The public headers are below all: they hold types.
+LAYERS = ["math", "base", "signal", "identification", "blocks", "model", "simulation", "record", "fit", "search", "compare",
+          "vehicle", "health", "monitor", "wording", "calls"]
+OWN_INCLUDE = re.compile(r'^#include "suspension_health_monitor/internal/(?:(\w+)/)?\w+\.h"', re.MULTILINE)
+
+
+def layer(path):
+    parts = path.relative_to(REPOSITORY).parts
+    inner = parts[2:] if parts[:2] == ("src", "core") else parts[3:] if parts[2] == "internal" else None
+    return None if inner is None else LAYERS.index(inner[0] if len(inner) > 1 else "calls")
+
+
+@pytest.mark.parametrize("path", [path for path in LIBRARY if layer(path) is not None], ids=name)
+def test_folders_of_the_library_include_only_those_below(path):
+    for folder in OWN_INCLUDE.findall(path.read_text()):
+        assert LAYERS.index(folder or "calls") <= layer(path), f"{folder} is above"
 
 
 PYTHON_WITHOUT_ROS = sorted(path for path in (REPOSITORY / "src/python").glob("*.cpp") if not path.name.startswith("bags_"))

@@ -262,7 +262,7 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
   HealthOptions nothing;
   nothing.learn_time = 0.0;
   EXPECT_EQ(describe(judged(estimate(0.0, 0.0), nothing)), "estimates valid; no nominal values given to judge them by");
-  EXPECT_EQ(describe(HealthReport{}), "cannot tell: the first blocks fill after a start or a gap");
+  EXPECT_EQ(describe(HealthReport{}), "cannot tell: too few readings since a start or a gap");
 }
 
 TEST(HealthReport, SaysThatANewLevelIsBeingConfirmed) {

@@ -8,8 +8,8 @@
 
 #include "hidden_effect.h"
 #include "suspension_health_monitor/diagnose.h"
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
+#include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 
 namespace suspension_health_monitor {
 namespace {

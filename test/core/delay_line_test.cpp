@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/signal/delay_line.h"
+#include "suspension_health_monitor/internal/math/delay_line.h"
 
 #include <gtest/gtest.h>
 

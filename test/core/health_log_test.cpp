@@ -1,5 +1,5 @@
 // What a monitor says over recordings: times add up, silence is not healthy, and the log is that of the monitor itself.
-#include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/wording/health_log.h"
 
 #include <gtest/gtest.h>
 

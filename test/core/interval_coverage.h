@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
+#include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 
 namespace suspension_health_monitor {
 

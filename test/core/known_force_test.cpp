@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "vehicle_drive.h"
 
 namespace suspension_health_monitor {

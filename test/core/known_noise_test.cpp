@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 namespace {

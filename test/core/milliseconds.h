@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 
 namespace suspension_health_monitor {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "monitor_settings.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
 
 namespace suspension_health_monitor {
 namespace {

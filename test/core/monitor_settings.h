@@ -1,6 +1,6 @@
 #pragma once
 
-#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 
 namespace suspension_health_monitor {
 

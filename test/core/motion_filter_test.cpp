@@ -113,7 +113,7 @@ TEST(MotionFilter, GivesASineAndItsDerivativeAtTheInstantOfTheStamp) {
 TEST(MotionFilter, HasItsBandInHertz) {
   for (const int microseconds : {1000, 2500, 5000, 10000}) {
     const MotionFilter filter(std::chrono::microseconds(microseconds), 1, 1);
-    EXPECT_EQ(filter.flat(), MotionFilter::kBand);
+    EXPECT_EQ(filter.flat(), kSignalTuning.body_band);
     EXPECT_NEAR(filter.delay() * 1e-6 * microseconds, 0.19, 0.01) << microseconds;  // 12 * 0.24 / 15 Hz
   }
   const MotionFilter slow(std::chrono::milliseconds(20), 1, 1);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "reference/batch_estimators.h"
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 

@@ -7,6 +7,7 @@
 
 #include "interleaved.h"
 #include "suspension_health_monitor/internal/signal/grids.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "uniform_grid.h"
 
 namespace suspension_health_monitor {
@@ -206,8 +207,9 @@ TEST(AlignmentAuto, ResamplesWhenTheStampsShowThatPairingDoesBadly) {
         feed(grid, byTime(messages.of(Side::kSprung, 200.0, 1.0, 31.0, it.jitter, it.lost),
                           messages.of(Side::kUnsprung, it.rate, 1.0 + it.phase, 31.0, it.jitter, it.lost)));
     EXPECT_EQ(grid.streams().resamples(), *it.words != 0) << it.words;
-    EXPECT_NE(grid.streams().why().find(it.words), std::string::npos) << grid.streams().why() << ", not " << it.words;
-    EXPECT_EQ(grid.streams().why().empty(), !grid.streams().resamples());
+    EXPECT_NE(describeAlignment(grid.streams()).find(it.words), std::string::npos)
+        << describeAlignment(grid.streams()) << ", not " << it.words;
+    EXPECT_EQ(describeAlignment(grid.streams()) == "paired", !grid.streams().resamples());
     for (std::size_t i = 1; i < samples.size(); ++i) ASSERT_LT(samples[i - 1].stamp, samples[i].stamp);
   }
 }
@@ -241,18 +243,18 @@ TEST(AlignmentAuto, NamesTheMeasuredRateWhereSamplePeriodIsTooShortAndNothingIsL
     UniformGrid grid(kPeriod, kAuto);
     feed(grid, byTime(messages.of(Side::kSprung, rate, 1.0, 11.0), messages.of(Side::kUnsprung, rate, 1.0, 11.0)));
     EXPECT_TRUE(grid.streams().resamples());
-    EXPECT_EQ(grid.streams().why(), grid.streams().whatIsTooSlow());
-    EXPECT_NE(
-        grid.streams().why().find(rate == 100.0 ? "every 0.01 s (100 Hz), but sample_period = 0.005" : "(120 Hz)"),
-        std::string::npos)
-        << grid.streams().why();
+    EXPECT_EQ(describeAlignment(grid.streams()), "resampled because " + describeSlowReadings(grid.streams()));
+    EXPECT_NE(describeAlignment(grid.streams())
+                  .find(rate == 100.0 ? "every 0.01 s (100 Hz), but sample_period = 0.005" : "(120 Hz)"),
+              std::string::npos)
+        << describeAlignment(grid.streams());
   }
   Messages messages(9);
   UniformGrid lossy(kPeriod, kAuto);
   feed(lossy, byTime(messages.of(Side::kSprung, 200.0, 1.0, 31.0, 0.0, 0.04),
                      messages.of(Side::kUnsprung, 200.0, 1.0, 31.0, 0.0, 0.04)));
-  EXPECT_EQ(lossy.streams().whatIsTooSlow(), "");
-  EXPECT_NE(lossy.streams().why().find("lost"), std::string::npos) << lossy.streams().why();
+  EXPECT_EQ(describeSlowReadings(lossy.streams()), "");
+  EXPECT_NE(describeAlignment(lossy.streams()).find("lost"), std::string::npos) << describeAlignment(lossy.streams());
 }
 
 }  // namespace

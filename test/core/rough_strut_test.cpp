@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulated_drive.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 namespace {

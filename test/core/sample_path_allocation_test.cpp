@@ -21,9 +21,9 @@
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "uniform_grid.h"
 #include "vehicle_drive.h"
 

@@ -42,7 +42,7 @@ TEST(BodySway, HasTheRmsThatIsAskedForAndItsDerivativeIsOne) {
   }
 }
 
-TEST(SensorFaults, AreAbsentUnlessHidden) {
+TEST(SimulatedFaults, AreAbsentUnlessHidden) {
   SimulationOptions still = quiet();
   still.body_acceleration = still.body_rate = 0.0;
   const std::vector<DriveSample> plain = drive(still), swaying = drive(quiet());
@@ -54,7 +54,7 @@ TEST(SensorFaults, AreAbsentUnlessHidden) {
   }
 }
 
-TEST(SensorFaults, BiasGainTiltAndLeverArmChangeTheReadingAsTheyShould) {
+TEST(SimulatedFaults, BiasGainTiltAndLeverArmChangeTheReadingAsTheyShould) {
   const BodySway sway(quiet());
   const auto expectReading = [&](const ActiveMeasurementEffect& hidden, const auto& expected) {
     const std::vector<DriveSample> samples = driveWith(hidden);
@@ -72,7 +72,7 @@ TEST(SensorFaults, BiasGainTiltAndLeverArmChangeTheReadingAsTheyShould) {
   });
 }
 
-TEST(SensorFaults, ClockOffsetReadsWhatWasBefore) {
+TEST(SimulatedFaults, ClockOffsetReadsWhatWasBefore) {
   SimulationOptions fine = quiet();
   fine.rate = 1000.0;
   const std::vector<DriveSample> truth = drive(fine);
@@ -87,7 +87,7 @@ TEST(SensorFaults, ClockOffsetReadsWhatWasBefore) {
   }
 }
 
-TEST(SensorFaults, ThatCannotShowAreRefused) {
+TEST(SimulatedFaults, ThatCannotShowAreRefused) {
   const auto refusal = [](const ActiveMeasurementEffect& hidden) {
     SimulationOptions options = swayingDrive("golden_car", 1);
     options.body_acceleration = options.body_rate = 0.0;

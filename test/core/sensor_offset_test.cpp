@@ -8,8 +8,8 @@
 
 #include "paper_drive.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 
 namespace suspension_health_monitor {
 namespace {

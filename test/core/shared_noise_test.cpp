@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
-#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 
 namespace suspension_health_monitor {

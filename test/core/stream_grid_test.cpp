@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "uniform_grid.h"
 
 namespace suspension_health_monitor {
@@ -165,7 +166,7 @@ TEST_F(StreamGridTest, TurnsToResamplingForOneStreamThatIsOutOfStep) {
       streams.push_back(readings(i, 10.0, {0.0, 0.0, i == 4 && out_of_step ? 0.002 : 0.0}));
     StreamGrid grid(kPeriod, sensors(6), Alignment::kAuto, kFill);
     feed(grid, interleaved(streams, 0.05));
-    EXPECT_EQ(grid.describeAlignment(),
+    EXPECT_EQ(describeAlignment(grid),
               out_of_step ? "resampled because the sensors read at different instants" : "paired");
   }
 }

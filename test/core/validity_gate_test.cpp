@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <vector>
 
-#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
@@ -18,7 +19,7 @@ EstimateFacts nothingAgainstIt() {
   facts.has_row = true;
   facts.rows = facts.fewest_rows = 50.0;
   facts.damping_stddev = facts.stiffness_stddev = kMostRelativeStddev;
-  facts.explained = kLeastExplained;
+  facts.explained = kMajority;
   facts.age = facts.oldest = 60.0;
   return facts;
 }
@@ -37,11 +38,14 @@ const std::vector<Flaw> kFlaws{
     {EstimateDoubt::kNotExcited, [](EstimateFacts& f) { f.damping_stddev = f.stiffness_stddev = 0.151; }},
     {EstimateDoubt::kDampingNotExcited, [](EstimateFacts& f) { f.damping_stddev = 0.151; }},
     {EstimateDoubt::kStiffnessNotExcited, [](EstimateFacts& f) { f.stiffness_stddev = 0.151; }},
-    {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kLeastExplained - 1e-9; }},
+    {EstimateDoubt::kNotExplained, [](EstimateFacts& f) { f.explained = kMajority - 1e-9; }},
     {EstimateDoubt::kNotAStrut, [](EstimateFacts& f) { f.is_physical = false; }},
+    {EstimateDoubt::kVehicleFile,
+     [](EstimateFacts& f) { f.absolute_stddev = std::numeric_limits<double>::infinity(); }},
     {EstimateDoubt::kOldData, [](EstimateFacts& f) { f.age = 60.1; }},
     {EstimateDoubt::kDisagrees, [](EstimateFacts& f) { f.agrees = false; }},
     {EstimateDoubt::kFreeRunFails, [](EstimateFacts& f) { f.free_run_fails = true; }},
+    {EstimateDoubt::kModelError, [](EstimateFacts& f) { f.absolute_stddev = std::max(f.absolute_stddev, 0.151); }},
 };
 
 TEST(ValidityGate, PassesAnEstimateThatNothingSpeaksAgainst) {

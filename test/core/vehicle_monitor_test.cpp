@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 
 #include <gtest/gtest.h>
 

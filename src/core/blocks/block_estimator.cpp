@@ -1,40 +1,23 @@
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kShareMean = 0.5, kShareStddev = 0.29;  // of r: uniform in (0, 1)
-// Links, rubber and tyres' side forces turn the phase of a vehicle's struts as a delay does, by up to 0.07 rad at 20 Hz
-// on recorded multibody vehicles. What a delay then takes from b0 at high frequencies is as much as 17 % of it.
-constexpr double kLeastPhase = 0.15;  // in the last bin [rad]
-// Standard deviation of a delay [s] or of a gain that is held at none, also beside data without noise.
-constexpr double kNone = 1e-9;
-constexpr int kSlowEvery = 4;        // blocks: all blocks then have changed by a sixteenth
-constexpr double kSlowFactor = 1.5;  // standard deviations of what changes slowly count so much more for fewer blocks
-constexpr double kLost = 0.3;        // relative standard deviation from which there is no estimate to linearise at
-constexpr int kStartBlocks = 8, kStartSteps = 8;  // blocks that one reading has time to linearise
-constexpr int kVehicleStartSteps = 3;             // all that one reading has time for; the blocks after it go on
-constexpr double kStale = 0.02;                   // relative change of b1 or b0 since the linearisation
-constexpr double kStalePhase = 0.1;               // of the phase that the delay makes in the last bin [rad]
-constexpr double kStaleShare = 0.2;               // of r
 
 // At rest now and then a strut is found in the noise: by chance p parameters explain p of the numbers of half
 // overlapped blocks. And a body that something else moves at one frequency, as the wind rocks a parked car, drags its
 // wheel along like some strut with hardly any damper: by more than the resonance of a strut that is damped by 0.115
 // makes of a wheel's motion, or with half as much unexplained as the wheel moves at all.
 bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
-  constexpr double kMostAmplified = 20.0;  // 1 + 1 / (4 0.115^2)
-  constexpr double kMostUndriven = 0.5;
   const double values = band.size() * (estimate.blocks + 1.0);
   const double least_explained = 2.0 * static_cast<double>(estimate.theta.size()) / values;
-  return estimate.is_settled && estimate.explained > least_explained && estimate.amplified < kMostAmplified &&
-         (1.0 - estimate.explained) * estimate.amplified < kMostUndriven;
+  return estimate.is_settled && estimate.explained > least_explained &&
+         estimate.amplified < kBlockTuning.most_amplified &&
+         (1.0 - estimate.explained) * estimate.amplified < kMajority;
 }
 
 bool isSlow(int i) { return i == kBlockDelay || i == kBlockGain || i >= kNumBlockParameters; }
@@ -51,15 +34,15 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, HUGE_VAL);
   first_.stddev[kBlockDelay] = delayStddev();
-  first_.stddev[kBlockGain] = kNone;
-  first_.mean[kBlockWheelShare] = kShareMean;
-  first_.stddev[kBlockWheelShare] = kShareStddev;
+  first_.stddev[kBlockGain] = kRounding;
+  first_.mean[kBlockWheelShare] = kBlockTuning.share_mean;
+  first_.stddev[kBlockWheelShare] = kBlockTuning.share_stddev;
   if (columns.neighbours > 0) {
     // Noise of all wheels is in e of every top, in proportions that change with frequency: no r is right, and what is
     // wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
-    first_.mean[kBlockWheelShare] = kLeastShare;
-    first_.stddev[kBlockWheelShare] = kLeastShare / 2.0;
-    first_.stddev[kBlockDelay] = kNone;
+    first_.mean[kBlockWheelShare] = kBlockTuning.least_share;
+    first_.stddev[kBlockWheelShare] = kBlockTuning.least_share / 2.0;
+    first_.stddev[kBlockDelay] = kRounding;
   }
   slow_ = scaled_ = first_;
   factor_.setOnes(p);
@@ -120,7 +103,7 @@ const WindowEstimate* BlockEstimator::update() {
     if (hasBlocks()) newest_worst_ = HUGE_VAL;
     return nullptr;
   }
-  if (++updates_ % kSlowEvery == 0 && count_ >= kStartBlocks) learnSlow();
+  if (++updates_ % kBlockTuning.slow_every == 0 && count_ >= kBlockTuning.start_blocks) learnSlow();
   scaleSlow();
   const BlockPrior& prior = contradictsSlow() ? first_ : scaled_;
   int window = 0;
@@ -142,11 +125,11 @@ const WindowEstimate* BlockEstimator::update() {
     return nullptr;
   }
   refine(window, prior);
-  has_theta_ = best_.isUsable() && best_.worst() < kLost;
+  has_theta_ = best_.isUsable() && best_.worst() < kBlockTuning.lost;
   if (!has_theta_) return nullptr;
   theta_ = best_.theta;
   // Blocks at rest can only make it worse: what is known is held.
-  if (newestSayNothing() && (best_.explained < kLeastExplained || best_.worst() >= told_worst_)) return nullptr;
+  if (newestSayNothing() && (best_.explained < kMajority || best_.worst() >= told_worst_)) return nullptr;
   told_worst_ = best_.worst();
   return &best_;
 }
@@ -157,14 +140,14 @@ bool BlockEstimator::start() {
   told_worst_ = HUGE_VAL;
   // Where a strut was known and lost few blocks tell it from what went before, as from a burst of wrong readings.
   const bool was_known = is_alone && weights_.usual.size() > 0;
-  if (startBy(std::min(count_, kStartBlocks)) || (was_known && startBy(kBlockWindows.front()))) {
+  if (startBy(std::min(count_, kBlockTuning.start_blocks)) || (was_known && startBy(kBlockWindows.front()))) {
     for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
     return true;
   }
   if (is_alone) return false;
-  waits_ = kSlowEvery - 1;
+  waits_ = kBlockTuning.slow_every - 1;
   double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
-  stddev = stddev == kNone ? delayStddev() : kNone;
+  stddev = stddev == kRounding ? delayStddev() : kRounding;
   return false;
 }
 
@@ -178,16 +161,17 @@ bool BlockEstimator::startBy(int window) {
   theta_[kBlockDamping] = std::max(linear[0], 0.2 * slowest);
   theta_[kBlockStiffness] = std::max(linear[1], slowest * slowest);
   theta_.tail(linear.size() - 2) = linear.tail(linear.size() - 2);
-  const int steps = equations_.columns().neighbours > 0 ? kVehicleStartSteps : kStartSteps;
+  const int steps = equations_.columns().neighbours > 0 ? kBlockTuning.vehicle_start_steps : kBlockTuning.start_steps;
   for (int i = 0; i < steps; ++i) {
     for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
     if (!fit(window, first_, trial_)) return false;
     theta_ = trial_.theta;
   }
-  return trial_.worst() < kLost && explainsSomething(trial_, equations_.band());
+  return trial_.worst() < kBlockTuning.lost && explainsSomething(trial_, equations_.band());
 }
 
-// A gain, and of a vehicle a delay, is let in only if it is more than links and laws with memory make, see kLeastPhase.
+// A gain, and of a vehicle a delay, is let in only if it is more than links and laws with memory make, see
+// kBlockTuning.least_phase.
 void BlockEstimator::lookAtSensors() {
   const bool is_alone = equations_.columns().neighbours == 0;
   const double omega = equations_.band().omega(equations_.band().last);
@@ -195,11 +179,11 @@ void BlockEstimator::lookAtSensors() {
   first_.stddev[kBlockGain] = options_.gain_stddev;
   const bool is_known = fit(count_, first_, trial_);
   const double gain = trial_.theta[kBlockGain];
-  if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kLeastPhase))
-    first_.stddev[kBlockDelay] = kNone;
-  if (!is_known || trial_.explained < kNearlyAll ||
-      std::abs(gain) < kLeastGain + kCertain * std::sqrt(trial_.covariance(kBlockGain, kBlockGain)))
-    first_.stddev[kBlockGain] = kNone;
+  if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
+    first_.stddev[kBlockDelay] = kRounding;
+  if (!is_known || trial_.explained < kBlockTuning.nearly_all ||
+      std::abs(gain) < kLeastDifference + kCertain * std::sqrt(trial_.covariance(kBlockGain, kBlockGain)))
+    first_.stddev[kBlockGain] = kRounding;
 }
 
 void BlockEstimator::forgetSlow() {
@@ -226,7 +210,7 @@ void BlockEstimator::learnSlow() {
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
     if (!isSlow(i)) continue;
     slow_.mean[i] = trial_.theta[i];
-    slow_.stddev[i] = std::min(kSlowFactor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
+    slow_.stddev[i] = std::min(kBlockTuning.slow_factor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
   }
   const auto& power = window_fit_.power();
   weights_ = window_fit_.weights();
@@ -311,25 +295,24 @@ bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
 // @return true if the newest fit leaves more of the newest blocks than usual: of most of them, as an event is in one or
 // two only.
 bool BlockEstimator::leavesUnusual(int blocks) {
-  constexpr double kUnusual = 1.5;  // the power of a block's 39 bins varies by a sixth
   if (weights_.usual.size() == 0) return true;
   sorted_.clear();
   const auto newest = window_fit_.power().rightCols(blocks);
   for (int b = 0; b < blocks; ++b) sorted_.push_back(weights_.timesUsual(newest.col(b)));
-  return medianInPlace(sorted_) > kUnusual;
+  return medianInPlace(sorted_) > kBlockTuning.unusual;
 }
 
 bool BlockEstimator::isStale(const StrutBlock& block) const {
   const auto moved = [&](int i) { return std::abs(best_.theta[i] - block.at[i]); };
   const BlockBand& band = equations_.band();
-  return moved(kBlockDamping) > kStale * block.at[kBlockDamping] ||
-         moved(kBlockStiffness) > kStale * block.at[kBlockStiffness] ||
-         moved(kBlockDelay) * band.omega(band.last) > kStalePhase || moved(kBlockWheelShare) > kStaleShare;
+  return moved(kBlockDamping) > kWorthHaving * block.at[kBlockDamping] ||
+         moved(kBlockStiffness) > kWorthHaving * block.at[kBlockStiffness] ||
+         moved(kBlockDelay) * band.omega(band.last) > kSmall || moved(kBlockWheelShare) > kBlockTuning.stale_share;
 }
 
 void BlockEstimator::refine(int window, const BlockPrior& prior) {
   int refined = 0;
-  for (int age = 0; age < window && refined < kStartBlocks; ++age) {
+  for (int age = 0; age < window && refined < kBlockTuning.start_blocks; ++age) {
     if (!isStale(block(age))) continue;
     equations_.linearise(best_.theta, block(age));
     ++refined;

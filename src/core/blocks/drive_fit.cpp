@@ -2,19 +2,14 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
 
 namespace suspension_health_monitor {
-
-namespace {
-
-constexpr double kFull = 10.0;  // times the usual power, up to which a block counts in full
-
-}  // namespace
 
 double BlockWeights::of(const Eigen::Ref<const Eigen::ArrayXd>& power) const {
   if (usual.size() == 0) return 1.0;
   const double times = timesUsual(power);
-  return times > kFull ? kFull * kFull / (times * times) : 1.0;
+  return times > kBlockTuning.full ? kBlockTuning.full * kBlockTuning.full / (times * times) : 1.0;
 }
 
 double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {

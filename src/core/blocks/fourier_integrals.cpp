@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/blocks/tuning.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr int kLanes = 8;  // bins that are turned at once
 FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
     : band_(band),
       half_length_(band.length / 2.0),
-      longest_spacing_(kLongestSpacing * band.length),
+      longest_spacing_(kBlockTuning.longest_spacing * band.length),
       channels_(channels),
       first_(channels),
       newest_(channels) {

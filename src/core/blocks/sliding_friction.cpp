@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "suspension_health_monitor/internal/blocks/tuning.h"
+
 namespace suspension_health_monitor {
-namespace {
-
-constexpr double kLeastFriction = 0.002;  // of the wheel's rms: then the direction is that of the rate, nearly
-
-}  // namespace
+namespace {}  // namespace
 
 double SlidingFriction::push(double time, double wheel) {
   const double spacing = time_ ? time - *time_ : 0.0;
@@ -22,7 +20,7 @@ double SlidingFriction::push(double time, double wheel) {
   mean_ += share * (wheel - mean_);
   variance_ += share * ((wheel - mean_) * (wheel - mean_) - variance_);
   const double friction =
-      std::max({friction_, kLeastFriction * std::sqrt(variance_), std::numeric_limits<double>::min()});
+      std::max({friction_, kBlockTuning.least_friction * std::sqrt(variance_), std::numeric_limits<double>::min()});
   const int steps = static_cast<int>(std::ceil(spacing / longest_step_));
   const double h = spacing / steps, damped = 1.0 / (1.0 + h * (b1_ + h * b0_)), limit = h * friction * damped;
   double direction = 0.0;

@@ -1,16 +1,12 @@
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr int kIterations = 3;  // of the weights of blocks; and with each of them of the noise and parameters
 
 // Within a factor of two of what it was, so that the model stays stable.
 double withinReach(double value, double before) { return std::clamp(value, 0.5 * before, 2.0 * before); }
@@ -56,8 +52,8 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   result.theta = start;
   solved_ = start.head<2>();
   gather(blocks);
-  for (int w = 0; w < kIterations; ++w) {
-    for (int i = 0; i < kIterations; ++i) {
+  for (int w = 0; w < kBlockTuning.weightings; ++w) {
+    for (int i = 0; i < kBlockTuning.weightings; ++i) {
       measureNoise(result.theta);
       sum(prior);
       const NormalEquations equations(normal_, right_);
@@ -67,7 +63,8 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
       solved_ = result.theta.head<2>();
       result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
       result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
-      result.theta[kBlockWheelShare] = std::clamp(result.theta[kBlockWheelShare], kLeastShare, 1.0 - kLeastShare);
+      result.theta[kBlockWheelShare] =
+          std::clamp(result.theta[kBlockWheelShare], kBlockTuning.least_share, 1.0 - kBlockTuning.least_share);
     }
     if (!weigh(blocks, result.theta)) break;
     gathered_ = 0;

@@ -6,8 +6,6 @@
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/search/screening.h"
@@ -145,7 +143,7 @@ std::optional<std::vector<StrutState>> settleModel(const Records& records, const
                                                    Comparison& comparison) {
   if (!options.fit) return estimateInitialStates(records, comparison.model);
   FitOutcome fit = fitOutputError(records, {}, comparison.model);
-  if (!fit || !isDampedSpring(fit->model)) return std::nullopt;
+  if (!fit || !fit->model.isDampedSpring()) return std::nullopt;
   comparison.model = fit->model;
   comparison.stddev = fit->stddev;
   return std::move(fit->initial);
@@ -189,7 +187,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
     if (options.progress) options.progress(share);
   };
   if (segmentsOf(records).empty()) return Shortcoming::kTooShort;
-  if (!isDampedSpring(comparison.model)) return Shortcoming::kNoDampedSpring;
+  if (!comparison.model.isDampedSpring()) return Shortcoming::kNoDampedSpring;
   const std::optional<std::vector<StrutState>> initial = settleModel(records, options, comparison);
   if (!initial) return Shortcoming::kNoStableFit;
   std::optional<ComparedDrives> compared = compareSegments(records, comparison.model, *initial);

@@ -3,16 +3,13 @@
 
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kContrastInTime = 1.5;  // of rmse in a region to rmse elsewhere
-constexpr double kContrast = 2.0;        // the same over travel or rate
 constexpr double kWorthATrend = 0.08;    // change of a parameter over a drive, of its value
-constexpr double kBeyondMargins = 0.5;   // of a cell's force: more than travel and rate alone explain
-constexpr double kBand = 0.5;            // of what is not noise, in the band that is named
 constexpr double kNegligible = 0.25;     // of the noise floor: smaller mean forces are not named
 constexpr std::size_t kMostRanges = 2;
 constexpr std::size_t kFewest = 30;  // samples of a bin or a cell: fewer say nothing
@@ -218,7 +215,7 @@ class FailureFinder {
     const std::vector<BinRange> found = forces(bins);
     for (const BinRange& range : found) take(range, range.mean());
     if (!found.empty() || drifts_) return;  // large motion has larger errors, too, when a parameter moves
-    for (const BinRange& range : noisy(bins, kContrast)) take(range, 0.0);
+    for (const BinRange& range : noisy(bins, kClearlyMore)) take(range, 0.0);
   }
 
   void findOnSurface() {
@@ -236,8 +233,8 @@ class FailureFinder {
         const double mean = surface.mean(i, j);
         const double beyond = mean - by_travel - by_rate;
         const double error = surface.standard_error(i, j);
-        const bool named = isForce(beyond, error, limit) && isForce(mean, error, limit) &&
-                           beyond * mean > kBeyondMargins * square(mean);
+        const bool named =
+            isForce(beyond, error, limit) && isForce(mean, error, limit) && beyond * mean > kMajority * square(mean);
         if (!named || counts(i, j) * square(beyond) <= largest) continue;
         largest = counts(i, j) * square(beyond);
         row = i;
@@ -281,7 +278,7 @@ class FailureFinder {
       excess += above.back() * width;
     }
     if (!isForce(std::sqrt(excess), 0.0, limit)) return;
-    const auto [first, last] = narrowestBand(above, kBand);
+    const auto [first, last] = narrowestBand(above, kMajority);
     double power = 0.0, coherent = 0.0;
     for (std::size_t i = first; i < last; ++i) {
       power += spectrum.residual[i];

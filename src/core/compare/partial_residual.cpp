@@ -3,15 +3,16 @@
 #include <utility>
 
 #include "suspension_health_monitor/internal/compare/comparison.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kBins = 28;
-constexpr std::size_t kColumns = 18, kRows = 14;
+constexpr std::size_t kColumns = 18;
+constexpr std::size_t kRows = 14;
 constexpr std::size_t kFewestInCell = 3;
 constexpr std::size_t kProbes = 200;
-constexpr double kNoInfluence = 1e-9;  // of the force
 
 struct Sample {
   StrutMotion motion;
@@ -46,7 +47,7 @@ bool dependsOn(const ActiveEffect& active, ForceVariable variable, const std::ve
     StrutMotion other = samples[i].motion;
     setValue(other, variable, valueOf(samples[(i + samples.size() / 2 + 1) % samples.size()].motion, variable));
     const double force = samples[i].law, changed = forceOf(active, other);
-    if (std::abs(changed - force) > kNoInfluence * (std::abs(force) + std::abs(changed))) return true;
+    if (std::abs(changed - force) > kRounding * (std::abs(force) + std::abs(changed))) return true;
   }
   return false;
 }
@@ -104,7 +105,7 @@ std::vector<PartialResidualBin> curveOver(const std::vector<Sample>& samples, Fo
     curve[i].at = 0.5 * (edges[i] + edges[i + 1]);
     finish(curve[i]);
   }
-  const auto is_empty = [](const PartialResidualBin& bin) { return bin.count < kFewestInBin; };
+  const auto is_empty = [](const PartialResidualBin& bin) { return bin.count < kFewestForScatter; };
   curve.erase(std::remove_if(curve.begin(), curve.end(), is_empty), curve.end());
   return curve;
 }

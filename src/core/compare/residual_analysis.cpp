@@ -8,7 +8,7 @@
 #include "residual_correlation.h"
 #include "residual_series.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -94,7 +94,7 @@ class LocalFit {
 
   void fill(double memory, TimeBin& bin) const {
     const Eigen::LDLT<Eigen::Matrix2d> factors(gram_);
-    if (bin.count < kFewestInBin || !(factors.rcond() > 1e-14)) return;
+    if (bin.count < kFewestForScatter || !(factors.rcond() > 1e-14)) return;
     const Eigen::Vector2d solution = factors.solve(moment_);
     const double left = std::max(0.0, square_ - moment_.dot(solution)) / (static_cast<double>(bin.count) - 2.0);
     const Eigen::Matrix2d covariance = left * memory * factors.solve(Eigen::Matrix2d::Identity());
@@ -169,7 +169,7 @@ DirectionLoop compareDirections(const ResidualSeries& series) {
   for (std::size_t i = 0; i < forth.size(); ++i) {
     const ResidualBin& c = loop.compressing[i];
     const ResidualBin& e = loop.extending[i];
-    if (std::min(c.count, e.count) < kFewestInBin) continue;
+    if (std::min(c.count, e.count) < kFewestForScatter) continue;
     const auto count = static_cast<double>(c.count + e.count);
     weight += count;
     loop.gap += count * (c.mean - e.mean);

@@ -8,8 +8,8 @@
 
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
-#include "suspension_health_monitor/internal/periodogram.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/periodogram.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 

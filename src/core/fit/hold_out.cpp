@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kFewestStretches = 8;
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 
 }  // namespace
@@ -62,7 +61,7 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
       position += segment.size();
     }
   }
-  if (result.stretches_.size() < kFewestStretches) return std::nullopt;
+  if (result.stretches_.size() < kFewestForScatter) return std::nullopt;
   const double mean = sum / result.samples_;
   result.deviation_ = std::sqrt(std::max(0.0, squares / result.samples_ - mean * mean));
   return result;

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <deque>
@@ -12,9 +11,8 @@
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
-#include "suspension_health_monitor/internal/periodogram.h"
+#include "suspension_health_monitor/internal/math/periodogram.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

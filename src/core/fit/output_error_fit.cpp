@@ -6,27 +6,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "parameterization.h"
 #include "segment_cost.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using LocalStates = std::vector<std::array<double, 2>>;  // travel and travel rate that segments begin with, scaled
 
-constexpr double kSmallForce = 0.1;  // of the measured acceleration: what a coefficient of 1 makes of its effect
-
 /// @return nothing if an effect never acts in these drives, or a fault of the measurement cannot show in them.
 std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes) {
   std::vector<double> scales;
   for (const double force : sizes.forces) {
     if (force == 0.0) return std::nullopt;
-    scales.push_back(kSmallForce * sizes.reading.y / force);
+    scales.push_back(kSmall * sizes.reading.y / force);
   }
   for (const ActiveMeasurementEffect& reading : start.reading) {
     bool shows = false;

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "parameterization.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-
-inline constexpr double kParameterStep = 1e-6;  // relative step of the numerical derivatives
 
 /// Residuals of one segment. Parameter blocks: the model, the segment's initial travel and travel rate.
 /// The arguments must outlive it.
@@ -69,7 +68,7 @@ class SegmentCost : public ceres::CostFunction {
     Eigen::VectorXd moved(num_residuals());
     for (Eigen::Index i = 0; i < varied.size(); ++i) {
       const double kept = varied[i];
-      double step = kParameterStep * std::max(1.0, std::abs(kept));
+      double step = kDifferenceStep * std::max(1.0, std::abs(kept));
       varied[i] = kept + step;
       if (!evaluate(shared, local, moved)) {  // at the edge of stability: look the other way
         step = -step;

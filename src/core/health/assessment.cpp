@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -26,7 +27,6 @@ double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); 
 // Times the significance that a level needs: no second estimate has to confirm it. Of 4 standard deviations 5, by
 // chance once in a month of estimates every 2 s.
 constexpr double kDecisive = 1.25;
-constexpr double kHeldShare = 0.5;  // of the significance that a level began with
 
 /// A change of one parameter, and what it is judged by.
 struct PartChange {
@@ -43,7 +43,7 @@ HealthLevel levelOf(const PartChange& change, HealthLevel before, const HealthOp
   const double size = std::abs(change.size);
   const auto reaches = [&](HealthLevel level, double threshold) {
     const bool holds = before >= level && before != HealthLevel::kStale;
-    if (change.significance < options.min_significance * (holds ? kHeldShare : 1.0)) return false;
+    if (change.significance < options.min_significance * (holds ? 0.5 : 1.0)) return false;
     return size + 1e-9 >= threshold - (holds ? std::fmax(options.hysteresis, change.stddev) : 0.0);
   };
   if (reaches(HealthLevel::kError, change.error)) return HealthLevel::kError;
@@ -66,6 +66,8 @@ PartChange beyond(const LogChange& others, PartChange change) {
 void HealthOptions::validate() const {
   checkThresholds("damping", damping_warn, damping_error);
   checkThresholds("stiffness", stiffness_warn, stiffness_error);
+  if (nominal_friction.has_value() != nominal_friction_gain.has_value())
+    throw std::invalid_argument("nominal/friction and nominal/friction_gain must be given together, or neither");
 }
 
 HealthAssessment::HealthAssessment(const HealthOptions& options)
@@ -74,8 +76,7 @@ HealthAssessment::HealthAssessment(const HealthOptions& options)
       damping_{{}, earlyWarning(options)},
       stiffness_(damping_) {
   options.validate();
-  baseline_.damping_to_mass = options.nominal_damping_to_mass;
-  baseline_.stiffness_to_mass = options.nominal_stiffness_to_mass;
+  baseline_ = nominalOf(options);
   if (baseline_.isEmpty() && options.learn_time > 0.0) learner_.emplace(options.learn_time);
 }
 
@@ -157,8 +158,7 @@ void HealthAssessment::learn(Stamp stamp, const StrutEstimate& estimate, double 
 void HealthAssessment::noteLoad(const StrutChange& change) {
   if (!change.load_alone) return;
   const double apart = std::abs(change.measured.damping->size - change.measured.stiffness->size);
-  if (apart + kLoadCertain * change.apartStddev() <
-      kLoadShare * std::min(options_.damping_warn, options_.stiffness_warn))
+  if (apart + kLikely * change.apartStddev() < std::min(options_.damping_warn, options_.stiffness_warn) / 2.0)
     known_load_ = std::log1p(*change.payload);
 }
 

@@ -1,9 +1,6 @@
 #include "suspension_health_monitor/internal/health/baseline.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -39,6 +36,15 @@ Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp) {
           true,
           stamp,
           stamp};
+}
+
+Baseline nominalOf(const HealthThresholds& options) {
+  Baseline nominal;
+  nominal.damping_to_mass = options.nominal_damping_to_mass;
+  nominal.stiffness_to_mass = options.nominal_stiffness_to_mass;
+  if (options.nominal_friction)
+    nominal.friction = DryFriction{*options.nominal_friction, 0.0, options.nominal_friction_gain.value_or(0.0)};
+  return nominal;
 }
 
 ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now) {

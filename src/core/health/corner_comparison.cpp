@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/health/baseline.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

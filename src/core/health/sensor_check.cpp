@@ -3,15 +3,13 @@
 #include <algorithm>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
-#include "suspension_health_monitor/internal/monitor/validity_gate.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-// Of 1, and of gravity: by so much an offset of the sensor, or a strut that is inclined by 30 degrees, moves a mean.
+// Tolerance of a mean about 1, and, as a share, about gravity: offsets and an inclination of 30 degrees move it so far.
 constexpr double kInG = 0.15;
-constexpr double kCertainlyNegative = 5.0;  // standard deviations of a damping below 0
 
 bool isOfMotion(SensorFault fault) {
   return fault == SensorFault::kNegativeDamping || fault == SensorFault::kUnrelated;
@@ -83,20 +81,19 @@ SensorFault SensorCheck::find(const StrutEstimate& estimate, const StrutEstimate
 }
 
 SensorFault SensorCheck::judgeGains(const StrutEstimate& estimate) {
-  const bool differ =
-      estimate.explained > kNearlyAll && std::abs(estimate.gain) > kLeastGain + kProven * estimate.gain_stddev;
+  const bool differ = estimate.explained > kBlockTuning.nearly_all &&
+                      std::abs(estimate.gain) > kLeastDifference + kProven * estimate.gain_stddev;
   return differ ? SensorFault::kGainsDiffer : SensorFault::kNone;
 }
 
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
   // Of what an engine does to the body the wheel explains nothing.
-  const double least_explained = kLeastExplained * (1.0 - std::sqrt(bodyBeyondStrut()));
+  const double least_explained = kMajority * (1.0 - std::sqrt(bodyBeyondStrut()));
   const bool is_strut = la.explained >= least_explained && la.damping_to_mass > 0.0 && la.stiffness_to_mass > 0.0;
   if (is_strut) return SensorFault::kNone;
   const bool body_moves = readings_[0].isOfStrut(), wheel_moves = readings_[1].isMotion();
-  if (body_moves && la.damping_to_mass < -kCertainlyNegative * la.damping_to_mass_stddev)
-    return SensorFault::kNegativeDamping;
-  const bool may_be_swapped = readings_[0].band > square(kMuchLarger) * readings_[1].band;
+  if (body_moves && la.damping_to_mass < -kCertain * la.damping_to_mass_stddev) return SensorFault::kNegativeDamping;
+  const bool may_be_swapped = readings_[0].band > square(kMuchMore) * readings_[1].band;
   return wheel_moves && (body_moves || may_be_swapped) ? SensorFault::kUnrelated : SensorFault::kNone;
 }
 

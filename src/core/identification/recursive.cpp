@@ -2,11 +2,11 @@
 #include <cmath>
 #include <limits>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/identification/recursive_covariance.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 

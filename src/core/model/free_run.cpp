@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

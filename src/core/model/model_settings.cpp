@@ -6,10 +6,8 @@
 #include <stdexcept>
 
 #include "find_by_name.h"
-#include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/text.h"
-#include "suspension_health_monitor/strut_model.h"
+#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 

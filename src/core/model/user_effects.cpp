@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 

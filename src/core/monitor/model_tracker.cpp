@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/monitor/model_tracker.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 
@@ -36,9 +35,7 @@ BlockOptions blockOptions(const MonitorSettings& options) {
   return blocks;
 }
 
-bool isLeading(EstimateFacts facts) { return doubtOf(facts) == EstimateDoubt::kNone; }
-
-void describe(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& estimate) {
+void write(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& estimate) {
   const auto stddev = [&](int i) { return std::sqrt(blocks.covariance(i, i)); };
   estimate.damping_to_mass = blocks.theta[kBlockDamping];
   estimate.stiffness_to_mass = blocks.theta[kBlockStiffness];
@@ -96,7 +93,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
     starts_.push_back(identifier_.coefficient(j));
     free_run_.setCoefficient(j, starts_[j]);
   }
-  if (report.la.effective_rows > 0.0) identifier_.describe(report.ls, report.la);
+  if (report.la.effective_rows > 0.0) identifier_.write(report.ls, report.la);
   judge(report);
 }
 
@@ -110,7 +107,7 @@ bool ModelTracker::addReading(Side side, Stamp stamp, double acceleration, Model
 
 bool ModelTracker::take(const TopEstimate* estimate, ModelReport& report) {
   if (estimate == nullptr) return false;
-  describe(*estimate, effects().size(), report.estimate);
+  write(*estimate, effects().size(), report.estimate);
   newest_ = {estimate->stamp, estimate->age};
   return true;
 }
@@ -132,7 +129,7 @@ bool ModelTracker::add(const CornerSample& newest, double time, const CornerSamp
   else
     identifier_.skip();
   report.has_row = identifier_.hasRow();
-  if (report.has_row) identifier_.describe(report.ls, report.la);
+  if (report.has_row) identifier_.write(report.ls, report.la);
   report.comparison.has_sample = compared != nullptr;
   if (compared != nullptr) compare(*compared, predicted, report);
   judge(report);
@@ -150,9 +147,7 @@ bool ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
 void ModelTracker::judge(ModelReport& report) {
   judgeBlocks(report.estimate);
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
-    EstimateFacts facts = identifier_.facts(*estimate);
-    facts.period_fits = period_fits_;
-    facts.unit_fits = unit_fits_;
+    EstimateFacts facts = identifier_.facts(*estimate, of_input_);
     facts.free_run_fails = estimate == &report.la && is_paper_ && free_run_fails_;
     if (!is_paper_) facts.agrees = report.estimate.valid() && agree(*estimate, report.estimate);
     estimate->doubt = doubtOf(facts);
@@ -161,9 +156,9 @@ void ModelTracker::judge(ModelReport& report) {
 
 // Of the blocks.  @param has_estimate  this one is theirs.
 EstimateFacts ModelTracker::factsOf(const StrutEstimate& estimate, bool has_estimate) const {
-  EstimateFacts facts;
+  EstimateFacts facts = of_input_;
+  facts.period_fits = true;  // blocks need no grid
   const double damping = leastDamping(estimate.damping_to_mass, estimate.stiffness_to_mass);
-  facts.unit_fits = unit_fits_;
   facts.has_row = has_estimate || (blocks_ && blocks_->estimator().hasBlocks());
   facts.damping_stddev = estimate.damping_to_mass_stddev / damping;
   facts.stiffness_stddev = estimate.stiffness_to_mass_stddev / estimate.stiffness_to_mass;
@@ -186,7 +181,7 @@ void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
 StrutEstimate ModelTracker::judged(const std::optional<TopEstimate>& blocks,
                                    const Eigen::Vector2d& model_stddev) const {
   StrutEstimate estimate;
-  if (blocks) describe(*blocks, effects().size(), estimate);
+  if (blocks) write(*blocks, effects().size(), estimate);
   estimate.damping_model_stddev = model_stddev[0];
   estimate.stiffness_model_stddev = model_stddev[1];
   estimate.doubt = doubtOf(factsOf(estimate, blocks.has_value()));
@@ -198,7 +193,8 @@ void ModelTracker::takeModel(const ModelReport& report) {
   const StrutEstimate& estimate = by_blocks ? report.estimate : report.la;
   // Until the blocks know the strut LA leads, which needs no more than its own rows for that, unless it was given.
   const bool leads = !by_blocks && (is_paper_ ? isModel(report.la)
-                                              : !newest_ && !is_given_ && isLeading(identifier_.facts(report.la)));
+                                              : !newest_ && !is_given_ &&
+                                                    doubtOf(identifier_.facts(report.la, {})) == EstimateDoubt::kNone);
   if (!by_blocks && !leads) return;
   if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;
@@ -233,8 +229,8 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
 }
 
 void ModelTracker::setInput(const InputStatus& input, Stamp now, ModelReport& report) {
-  period_fits_ = input.period_fits;
-  unit_fits_ = input.unit_fits;
+  of_input_.period_fits = input.period_fits;
+  of_input_.unit_fits = input.unit_fits;
   now_ = now;
   judge(report);
 }

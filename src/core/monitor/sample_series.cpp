@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -38,7 +40,7 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
 
 void SampleSeries::judge() {
   if (spacing_.weight() < kSpacings) return;
-  status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= InputStatus::kPeriodTolerance;
+  status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= kWorthHaving;
 }
 
 const CornerSample* SampleSeries::delayed() const { return recent_.full() ? &recent_.front() : nullptr; }

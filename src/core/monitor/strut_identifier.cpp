@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 
-// LA has the least mean absolute residual that there is, but for a few memories after wrong readings, which LS follows.
-// Where LS has half of it for longer, LA is lost: one absurd reading may send it further than its covariance lets it
-// come back from.
-constexpr double kLost = 2.0;
+// Normally LA's mean |residual| is the smaller one. After wrong readings LS's may be, for a few memories; if for
+// longer, LA is lost and begins again from LS.
 constexpr double kMostLost = 10.0;  // memories
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
@@ -21,7 +21,7 @@ RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples
 
 // @param num_model  columns of the strut and of its effects, before those of the sensors.
 template <class Estimator>
-void describeParameters(const Estimator& estimator, int num_model, StrutEstimate& estimate) {
+void writeParameters(const Estimator& estimator, int num_model, StrutEstimate& estimate) {
   if (!(estimator.effectiveRows() > 0.0)) return;  // the start values are no estimates
   const Eigen::VectorXd& theta = estimator.parameters();
   const auto stddev = [&](int i) { return std::sqrt(estimator.parameterVariance(i)); };
@@ -29,6 +29,7 @@ void describeParameters(const Estimator& estimator, int num_model, StrutEstimate
   estimate.stiffness_to_mass = theta[kStiffnessToMass];
   estimate.damping_to_mass_stddev = stddev(kDampingToMass);
   estimate.stiffness_to_mass_stddev = stddev(kStiffnessToMass);
+  estimate.correlation = std::nan("");
   estimate.num_effects = static_cast<std::size_t>(num_model - kNumStrutParameters);
   for (std::size_t j = 0; j < estimate.num_effects; ++j) {
     const int i = kNumStrutParameters + static_cast<int>(j);
@@ -64,8 +65,7 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
     columns.push_back(effect);
   }
   for (int j = 0; j < count(sensors_); ++j) columns.push_back({numModelColumns() + j, 0.0});
-  least_squares_.changeColumns(columns);
-  least_absolute_.changeColumns(columns);
+  forEach([&](RecursiveEstimator& estimator) { estimator.changeColumns(columns); });
   regression_ = SuspensionRegression(filter_, effects.size(), sensors_);
   has_row_ = false;
   rows_ = 0.0;
@@ -80,25 +80,24 @@ void StrutIdentifier::add(const CornerSample& sample, const double* effect_force
   if (!silent_rows_.moves()) return;
   rows_ += 1.0;
   if (!holds_) return update(*row);
-  least_squares_.observe(*row);
-  least_absolute_.observe(*row);
+  forEach([&](RecursiveEstimator& estimator) { estimator.observe(*row); });
 }
 
 void StrutIdentifier::update(const RegressionRow& row) {
   least_squares_.update(row);
   least_absolute_.update(row);
-  const bool is_lost = kLost * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
+  const bool is_lost = kClearlyMore * least_squares_.meanAbsoluteResidual() < least_absolute_.meanAbsoluteResidual();
   lost_memories_ = is_lost ? lost_memories_ + 1.0 - forgettingFactor() : 0.0;
   if (lost_memories_ > kMostLost) least_absolute_.beginAgain(least_squares_);
 }
 
-void StrutIdentifier::describe(StrutEstimate& ls, StrutEstimate& la) const {
-  describeParameters(least_squares_, numModelColumns(), ls);
-  describeParameters(least_absolute_, numModelColumns(), la);
+void StrutIdentifier::write(StrutEstimate& ls, StrutEstimate& la) const {
+  writeParameters(least_squares_, numModelColumns(), ls);
+  writeParameters(least_absolute_, numModelColumns(), la);
 }
 
-EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
-  EstimateFacts facts;
+EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate, const EstimateFacts& of_input) const {
+  EstimateFacts facts = of_input;
   facts.has_row = has_row_;
   facts.rows = std::min(estimate.effective_rows, rows_);
   facts.fewest_rows = fewest_rows_;
@@ -108,15 +107,13 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate) const {
 
 void StrutIdentifier::startNewSeries() {
   regression_.reset();
-  least_squares_.interrupt();
-  least_absolute_.interrupt();
+  forEach([](RecursiveEstimator& estimator) { estimator.interrupt(); });
   has_row_ = false;
 }
 
 void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   const double factor = options.forgettingFactor(filter_.period);
-  least_squares_.setForgettingFactor(factor);
-  least_absolute_.setForgettingFactor(factor);
+  forEach([&](RecursiveEstimator& estimator) { estimator.setForgettingFactor(factor); });
   fewest_rows_ = options.fewestRows(kFewestHorizons, filter_.period);
 }
 

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace suspension_health_monitor {
 namespace {
 
-// Horizons of rows that an estimate needs before it may accuse a sensor, and that readings are averaged over: of fewer
-// nobody knows a mean.
+// Horizons that LA needs before it may accuse a sensor, and shortest memory of the means of readings.
 constexpr double kHorizonsOfSensorCheck = 17.0;
 constexpr double kChecksPerHorizon = 1.5;  // of the sensors: samples within a horizon say much the same
 
@@ -112,7 +110,7 @@ const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
 }
 
 void SuspensionMonitor::judgeSensors() {
-  series_.note(sensors_);
+  series_.note(sensors_);  // what the sensors' check found last time: it judges below
   series_.judge();
   changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), series_.newest(), report); });
   const bool la_tells =

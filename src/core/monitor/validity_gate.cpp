@@ -1,18 +1,15 @@
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
-
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 bool agree(double a, double a_stddev, double b, double b_stddev) {
   const double apart = std::abs(a - b);
-  return apart <= kMostApart * std::abs(b) || apart <= kCertain * std::hypot(a_stddev, b_stddev);
+  return apart <= kLeastDifference * std::abs(b) || apart <= kCertain * std::hypot(a_stddev, b_stddev);
 }
 
 bool isKnown(double relative_stddev) { return relative_stddev <= kMostRelativeStddev; }
@@ -34,7 +31,7 @@ constexpr std::array kRules{
     Rule{EstimateDoubt::kDampingNotExcited, [](const EstimateFacts& f) { return !isKnown(f.damping_stddev); }},
     Rule{EstimateDoubt::kStiffnessNotExcited, [](const EstimateFacts& f) { return !isKnown(f.stiffness_stddev); }},
     // No strut between these two signals.
-    Rule{EstimateDoubt::kNotExplained, [](const EstimateFacts& f) { return !(f.explained >= kLeastExplained); }},
+    Rule{EstimateDoubt::kNotExplained, [](const EstimateFacts& f) { return !(f.explained >= kMajority); }},
     // A spring and a damper have positive rates.
     Rule{EstimateDoubt::kNotAStrut, [](const EstimateFacts& f) { return !f.is_physical; }},
     // Swapped topics, wrong positions, a dead gyro: not even changes are known.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "slope_filter.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
@@ -13,8 +14,6 @@ namespace {
 
 constexpr int kStuckRepeats = 4;  // a value that is read so many times again is a stuck one
 constexpr std::size_t kShortestSegment = 32;
-
-constexpr double kConstant = 1e-9;  // change against size, below which a channel is taken to stand still
 
 /// One number of every message, as a function of time.
 class Channel {
@@ -38,7 +37,7 @@ class Channel {
   bool tells() const {
     const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
     return std::all_of(values_.begin(), values_.end(), isUsable) &&
-           *most - *least > kConstant * std::max(std::abs(*least), std::abs(*most));
+           *most - *least > kRounding * std::max(std::abs(*least), std::abs(*most));
   }
 
   double mean() const {
@@ -147,9 +146,9 @@ DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double dr
 }
 
 void DriveRecord::addSegment(const Stretch& stretch, const std::vector<double>& taps) {
-  constexpr std::size_t kEnd = BandlimitedInterpolator::kHalfWidth;
+  const std::size_t end = BandlimitedInterpolator::kHalfWidth;
   const std::size_t lead = taps.size() / 2;
-  if (stretch.wheel.size() < 2 * (kEnd + lead) + kShortestSegment) return;
+  if (stretch.wheel.size() < 2 * (end + lead) + kShortestSegment) return;
   std::vector<double> driving = stretch.driving;
   for (double& w : driving) w -= mean_wheel_;
   std::vector<WheelInterpolator> interpolators;
@@ -157,7 +156,7 @@ void DriveRecord::addSegment(const Stretch& stretch, const std::vector<double>& 
     interpolators.emplace_back(static_cast<double>(step) / steps_, (step + 1.0) / steps_, period_);
 
   DriveSegment segment;
-  const std::size_t first = kEnd + lead, last = driving.size() - 1 - kEnd;
+  const std::size_t first = end + lead, last = driving.size() - 1 - end;
   segment.start = stretch.start + static_cast<double>(first) * period_;
   segment.period = period_;
   segment.steps = steps_;
@@ -169,9 +168,9 @@ void DriveRecord::addSegment(const Stretch& stretch, const std::vector<double>& 
     segment.unsprung.push_back(stretch.wheel[k] - mean_wheel_);
     segment.driving.push_back(driving[k]);
   }
-  for (std::size_t k = kEnd; k < last; ++k)
+  for (std::size_t k = end; k < last; ++k)
     for (const WheelInterpolator& interpolate : interpolators)
-      segment.wheel.push_back(interpolate(&driving[k + 1 - kEnd]));
+      segment.wheel.push_back(interpolate(&driving[k + 1 - end]));
   segments_.push_back(std::move(segment));
 }
 

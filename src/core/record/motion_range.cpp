@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/periodogram.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/periodogram.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

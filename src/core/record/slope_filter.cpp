@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -20,10 +20,10 @@ double noiseOf(const std::vector<std::vector<double>>& series) {
 }
 
 double meanSquare(const SlopeFilter& slope, const std::vector<std::vector<double>>& series) {
-  constexpr std::size_t kMargin = SlopeFilter::kWidest;
+  const std::size_t margin = SlopeFilter::kWidest;
   double sum = 0.0, count = 0.0;
   for (const std::vector<double>& x : series)
-    for (std::size_t k = kMargin; k + kMargin < x.size(); ++k, ++count) sum += square(slope(&x[k]));
+    for (std::size_t k = margin; k + margin < x.size(); ++k, ++count) sum += square(slope(&x[k]));
   return count > 0.0 ? sum / count : 0.0;
 }
 

@@ -9,7 +9,7 @@
 #include "separating_drive.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -261,25 +261,27 @@ class Search {
   }
 
   /// Names are given if the model with them takes all of the structure but what counts as noise (kStructured), and as
-  /// much of what the best of them alone leaves. What sampling loses of the model's own forces, and what a sensor has
-  /// filtered, is noise.
+  /// much of what the best of them alone leaves, and a fifth of what a law leaves is noise at least. What sampling
+  /// loses of the model's own forces, and what a sensor has filtered, is noise.
   /// @param before  the model with the best name alone; the base, if `after` has only one.
   bool isExplained(const EvaluatedModel& after, const EvaluatedModel& before) const {
     if (mayBeOtherStruts(after)) return false;
+    const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
     const auto takesAll = [&](double lowest) {
-      return std::min(shareOf(base_, after, lowest), shareOf(before, after, lowest)) > 1.0 - kStructured;
+      const double taken = std::min(shareOf(base_, after, lowest), shareOf(before, after, lowest));
+      const double structured = structuredShare(after.ranked.held_out_rmse, lowest);
+      return taken > 1.0 - kStructured && (only_reading || structured < 1.0 - kStructured);
     };
     const double lowest = std::hypot(result_.noise_floor, lostInSampling(records_, after.fit));
     if (takesAll(lowest)) return true;
     // The rest may be noise that a sensor has filtered. Where only the reading is to be at fault, that has been there
     // before: no law hid it.
-    const bool only_reading = after.ranked.model.effects.size() == base_.ranked.model.effects.size();
     return !only_reading && takesAll(floorOf(after, lowest));
   }
 
-  /// A suspect makes the error smaller by more than half (kMostOfIt of its mean square).
+  /// A suspect makes the error smaller by more than half (kMajority of its mean square).
   bool isSuspect(const EvaluatedModel& after) const {
-    return !mayBeOtherStruts(after) && shareOf(base_, after, 0.0) > kMostOfIt;
+    return !mayBeOtherStruts(after) && shareOf(base_, after, 0.0) > kMajority;
   }
 
   /// @return true if other struts of the same body may have done what is taken for something else: on a body that the

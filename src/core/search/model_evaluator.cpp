@@ -7,12 +7,10 @@
 #include <future>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include "rivals.h"
 #include "row_start.h"
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -11,9 +11,6 @@
 
 namespace suspension_health_monitor {
 
-/// What takes less of the error (mean square) is not given a name.
-inline constexpr double kMostOfIt = 0.5;
-
 /// A model and how it did, or is expected to do, on what was held out.
 struct EvaluatedModel {
   RankedModel ranked;

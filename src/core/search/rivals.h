@@ -7,7 +7,7 @@
 
 #include "model_evaluator.h"
 #include "suspension_health_monitor/internal/fit/free_form.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -142,7 +142,7 @@ inline double wandering(const Residuals& residuals, double natural_period) {
 /// it: then it is no constant, and no fault of a sensor.
 inline bool isWanderingOffset(const Residuals& before, const Residuals& after, double natural_period) {
   const double offset = meanOf(before) - meanOf(after);
-  return square(offset) > kMostOfIt * (meanSquare(before) - meanSquare(after)) &&
+  return square(offset) > kMajority * (meanSquare(before) - meanSquare(after)) &&
          std::abs(offset) < normalQuantile(kSure) * wandering(after, natural_period);
 }
 

@@ -8,9 +8,8 @@
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/search/screening.h"
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -97,7 +96,7 @@ class RowStart {
       StrutModel model = fit_.model;
       model.damping_to_mass = part->common[0];
       model.stiffness_to_mass = part->common[1];
-      if (!isDampedSpring(model)) continue;
+      if (!model.isDampedSpring()) continue;
       for (std::size_t j = 0; j < model.effects.size(); ++j)
         model.effects[j].coefficient = part->common[2 + static_cast<Eigen::Index>(j)];
       model.effects.push_back({effect, coefficient, shapes});

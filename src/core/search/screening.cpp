@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

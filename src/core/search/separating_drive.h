@@ -7,8 +7,8 @@
 
 #include "model_evaluator.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
-#include "suspension_health_monitor/internal/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -25,8 +25,6 @@ inline constexpr MotionChange kDriveChanges[] = {
     {DriveKind::kSlower, 1.0, 1.0 / 3.0, 1.0}, {DriveKind::kQuicker, 1.0, 3.0, 1.0},
     {DriveKind::kLonger, 1.0, 1.0, 3.0},
 };
-inline constexpr double kHelps = 2.0;  // times as different as in the drives at hand
-
 inline std::vector<StrutMotion> scaledMotion(const std::vector<StrutMotion>& motion, const MotionChange& change) {
   std::vector<StrutMotion> result = motion;
   for (StrutMotion& m : result) {
@@ -93,7 +91,7 @@ inline Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOu
 /// forces taken along the present motion scaled to that kind. kNoneHelps if none makes it at least twice as much.
 inline SeparatingDrive separatingDrive(const LinearResponse& present, const Selection& selection) {
   const double here = leastDifference(present, selection.models, {DriveKind::kNoneHelps, 1.0, 1.0, 1.0});
-  SeparatingDrive best{selection.group, DriveKind::kNoneHelps, kHelps * here, here};
+  SeparatingDrive best{selection.group, DriveKind::kNoneHelps, kClearlyMore * here, here};
   for (const MotionChange& change : kDriveChanges) {
     const double there = leastDifference(present, selection.models, change);
     if (!(there > best.difference_there)) continue;

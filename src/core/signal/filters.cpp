@@ -5,7 +5,6 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 #include "suspension_health_monitor/internal/signal/readings.h"
 
@@ -64,9 +63,6 @@ BandlimitedInterpolator BandlimitedInterpolator::integral(double from, double to
 
 namespace {
 
-// Of the sampling rate, of a filter of BandlimitedInterpolator::kHalfWidth samples to either side; longer ones are
-// narrower by as much.
-constexpr double kWidestFlat = 0.24, kWidestStop = 0.42;
 constexpr int kFrequencies = 2000;  // at which the errors are summed: many more than the taps can tell apart
 
 /// With q = 2 pi f T: H = h_0 + 2 sum_n h_n cos(n q), T G = 2j sum_n g_n sin(n q).
@@ -84,7 +80,7 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> makePair(int delay, double flat, dou
   const Eigen::VectorXd passes = (frequencies <= flat).cast<double>(), stops = (frequencies >= stop).cast<double>();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns + 2, unknowns + 2);
   normal.topLeftCorner(unknowns, unknowns) = low_pass.transpose() * (passes + stops).asDiagonal() * low_pass +
-                                             MotionFilter::kSameFilter * difference.transpose() * difference;
+                                             kSignalTuning.same_filter * difference.transpose() * difference;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns + 2);
   right.head(unknowns) = low_pass.transpose() * passes;
   // Lagrange's conditions: sum of h is 1, and sum of n g_n over both sides.
@@ -112,9 +108,9 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> makePair(int delay, double flat, dou
 
 MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t differentiated)
     : period_(period),
-      flat_(std::min(kBand, kWidestFlat / toSeconds(period))),
-      delay_(static_cast<int>(
-          std::ceil(BandlimitedInterpolator::kHalfWidth * kWidestFlat / (flat_ * toSeconds(period)) - 1e-9))),
+      flat_(std::min(kSignalTuning.body_band, kSignalTuning.widest_flat / toSeconds(period))),
+      delay_(static_cast<int>(std::ceil(
+          BandlimitedInterpolator::kHalfWidth * kSignalTuning.widest_flat / (flat_ * toSeconds(period)) - 1e-9))),
       instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
       history_(filtered + differentiated, DelayLine(2 * delay_ + 1)),
       stamps_(static_cast<std::size_t>(2 * delay_ + 1)) {
@@ -122,7 +118,7 @@ MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t diffe
   rate_ /= toSeconds(period);
 }
 
-double MotionFilter::stop() const { return flat_ * kWidestStop / kWidestFlat; }
+double MotionFilter::stop() const { return flat_ * kSignalTuning.widest_stop / kSignalTuning.widest_flat; }
 
 const MotionFilter::Instant* MotionFilter::push(Stamp stamp, const std::vector<double>& signals) {
   const Continuity follows = stamps_.empty() ? Continuity::kGap : continuity(stamp - stamps_.back(), period_);

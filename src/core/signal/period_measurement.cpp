@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 

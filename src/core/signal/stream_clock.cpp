@@ -1,11 +1,10 @@
 #include "suspension_health_monitor/internal/signal/stream_clock.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <complex>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -43,11 +42,7 @@ void SamplingTest::add(double value, double off) {
 
 namespace {
 
-constexpr double kNear = 1.5;        // periods: up to one lost reading, and jitter
-constexpr int kLongestBatch = 16;    // readings that come at once: a longer spacing is a pause
-constexpr double kOfOneStamp = 0.6;  // of what convinces
 const double kConvincing = std::log(1e3);
-constexpr int kOtherPeriod = 64, kMiscount = 5;  // readings more that do not follow by a period than do
 
 }  // namespace
 
@@ -67,7 +62,7 @@ Stamp StreamClock::add(Stamp stamp, double value) {
     follow(now);
     const double off = (now - time_) / period_;
     sampling_.add(value, off);
-    if (sampling_.isRegular() || (messages_wait_ && !sampling_.isAsStamped() && std::abs(off) > kNear)) {
+    if (sampling_.isRegular() || (messages_wait_ && !sampling_.isAsStamped() && std::abs(off) > kSignalTuning.near)) {
       taken = *origin_ + fromSeconds(time_);
       apart = fromSeconds(0.5 * period_);  // one that was counted too far before: a curve through the readings holds
     }
@@ -90,7 +85,7 @@ double StreamClock::medianSpacing(std::size_t over) const {
 // The sum of exp(2 pi i f t) over the stamps t is largest where f is the rate, however many readings are lost.
 double StreamClock::likeliestPeriod(double rough) const {
   // A quarter of a peak's width; one loss in each stretch.
-  constexpr double kStep = 0.25 / kFirst, kMost = 1.0 / kLongestBatch;
+  constexpr double kStep = 0.25 / kFirst, kMost = 1.0 / kSignalTuning.longest_batch;
   std::array<std::complex<double>, kFirst> now, turn;
   for (std::size_t i = 0; i < kFirst; ++i) {
     const double angle = 2.0 * M_PI * (first_[i] - first_[0]) / rough;
@@ -113,7 +108,7 @@ double StreamClock::likeliestPeriod(double rough) const {
 
 void StreamClock::begin(double stamp) {
   first_[num_first_++] = stamp;
-  if (num_first_ > 1) period_ = medianSpacing(std::min<std::size_t>(kLongestBatch, num_first_ / 2));
+  if (num_first_ > 1) period_ = medianSpacing(std::min<std::size_t>(kSignalTuning.longest_batch, num_first_ / 2));
   if (num_first_ < kFirst) return;
   period_ = likeliestPeriod(period_);
   stamp_ = time_ = first_[0];
@@ -135,16 +130,17 @@ int StreamClock::periodsSinceLast(double stamp) {
     evidence_ = 0.0;
   }
   const double ratio = miscount_ * (2.0 * off - miscount_) * square(period_) / (2.0 * square_.mean());
-  const double most = (std::abs(whole) > 1.0 || whole_before_ != 0.0) ? kOfOneStamp * kConvincing : kConvincing;
+  const double most =
+      (std::abs(whole) > 1.0 || whole_before_ != 0.0) ? kSignalTuning.of_one_stamp * kConvincing : kConvincing;
   evidence_ = std::max(0.0, evidence_ + std::min(ratio, most));
   if (std::abs(whole_before_) > 1.0 && whole != whole_before_) messages_wait_ = true;
   whole_before_ = whole;
-  const bool is_pause = std::abs(whole) > kLongestBatch;
+  const bool is_pause = std::abs(whole) > kSignalTuning.longest_batch;
   if (!is_pause && evidence_ < kConvincing) {
     out_of_step_ = std::max(0, out_of_step_ - 1);
     return 1;
   }
-  out_of_step_ += kMiscount;
+  out_of_step_ += kSignalTuning.miscount;
   if (!is_pause) lost_ += static_cast<std::int64_t>(miscount_);
   messages_wait_ = messages_wait_ && std::abs(miscount_) == 1.0;
   sampling_.interrupt();
@@ -157,7 +153,8 @@ void StreamClock::follow(double stamp) {
   const int periods = periodsSinceLast(stamp);
   const double step = period_ * periods, miscounted = 1.0 / (1.0 + std::exp(kConvincing - evidence_));
   double off = stamp - time_ - step;
-  off = std::abs(off) > kNear * period_ ? std::remainder(off, period_) : off - miscounted * miscount_ * period_;
+  off = std::abs(off) > kSignalTuning.near * period_ ? std::remainder(off, period_)
+                                                     : off - miscounted * miscount_ * period_;
   if (evidence_ == 0.0 && periods == 1) jitter_.add(square(stamp - stamp_ - step));
   readings_ = std::min(readings_ + 1.0, 1.0 / (1.0 - kMemory));
   const double sum = readings_ * (readings_ + 1.0);
@@ -165,9 +162,9 @@ void StreamClock::follow(double stamp) {
   period_ += 6.0 / sum * off;
   square_.add(off * off);
   stamp_ = stamp;
-  if (out_of_step_ < kOtherPeriod) return;
+  if (out_of_step_ < kSignalTuning.other_period) return;
   num_first_ = 0;
-  lost_ -= out_of_step_ / kMiscount;  // it was the period that changed
+  lost_ -= out_of_step_ / kSignalTuning.miscount;  // it was the period that changed
 }
 
 }  // namespace suspension_health_monitor

@@ -1,25 +1,15 @@
 #include "suspension_health_monitor/internal/signal/stream_gate.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace suspension_health_monitor {
-namespace {
-
-constexpr double kFarOut = 1.5;     // mean deviations from the mean: as far as a sine's peak
-constexpr double kFine = 0.02;      // of the span: a band at its end, and the step below which repeated values mean something
-constexpr double kBandSteps = 8.5;  // eight steps, however their differences are rounded
-
-}  // namespace
-
 void RangeEnd::add(double reading, const ReadingStatistics& all, double span) {
-  count(reading, std::max(kFine * span, kBandSteps * all.finestStep()));
+  count(reading, std::max(kSignalTuning.fine * span, kSignalTuning.band_steps * all.finestStep()));
   countFlatTops(reading, all);
-  if (!in_flat_top_ || flat_tops_ > 1 || all.equalInARow() < ReadingStatistics::kStuck) {
-    const bool far_out = std::abs(reading - all.mean()) > kFarOut * all.deviation();
-    const bool fine = all.finestStep() < kFine * span;
+  if (!in_flat_top_ || flat_tops_ > 1 || all.equalInARow() < kSignalTuning.stuck) {
+    const bool far_out = std::abs(reading - all.mean()) > kSignalTuning.far_out * all.deviation();
+    const bool fine = all.finestStep() < kSignalTuning.fine * span;
     // A sensor that reads 0 is dead: no range ends there.
-    if (in_flat_top_ && all.areUsual() && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kAgain))
+    if (in_flat_top_ && all.areUsual() && fine && reading != 0.0 && at_ > near_ &&
+        (far_out || flat_tops_ >= kSignalTuning.flat_tops))
       limit_ = reading;
   } else {
     limit_.reset();
@@ -43,29 +33,20 @@ void RangeEnd::count(double reading, double band) {
 
 void RangeEnd::countFlatTops(double reading, const ReadingStatistics& all) {
   const double usual_run = 1.0 / std::max(1.0 - all.repeated(), 1e-6);
-  const bool flat = reading == extreme_ && all.equalInARow() + 0.5 > kFlatTop * usual_run;
-  if (flat && !in_flat_top_) flat_tops_ = std::min(flat_tops_ + 1, kAgain);
+  const bool flat = reading == extreme_ && all.equalInARow() + 0.5 > kSignalTuning.flat_top * usual_run;
+  if (flat && !in_flat_top_) flat_tops_ = std::min(flat_tops_ + 1, kSignalTuning.flat_tops);
   in_flat_top_ = flat;
 }
 
 void ReadingStatistics::add(double reading, bool is_extreme) {
   const double step = last_ ? std::abs(reading - *last_) : 0.0;
-  equal_in_a_row_ = last_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, kStuck) : 1;
+  equal_in_a_row_ = last_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, kSignalTuning.stuck) : 1;
   if (step > 0.0) finest_step_ = finest_step_ > 0.0 ? std::min(finest_step_, step) : step;
   last_ = reading;
   mean_.add(reading);
   deviation_.add(std::abs(reading - mean_.mean()));
   if (!is_extreme) repeated_.add(step == 0.0 ? 1.0 : 0.0);
 }
-
-namespace {
-
-// A hundred g: an impact that breaks wheels. Bumps into the stops are a few hundred m/s^2.
-constexpr double kMostOfAVehicle = 1000.0;  // [m/s^2]
-constexpr double kMostTimesUsual = 100.0;   // beyond that, whatever the unit
-constexpr double kMostInAnyUnit = 1e9;      // [m/s^2]: a vehicle's in micro-g
-
-}  // namespace
 
 StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
   if (!isUsable(acceleration)) return reject(RejectReason::kNotFinite);
@@ -103,11 +84,12 @@ std::optional<RejectReason> StreamGate::faultOfStamp(Stamp stamp) const {
 
 bool StreamGate::isAbsurd(double acceleration) {
   const double size = std::abs(acceleration);
-  const double least = is_force_ ? kMostInAnyUnit : kMostOfAVehicle;
-  const double most = std::clamp(kMostTimesUsual * usual_size_.median(), least, kMostInAnyUnit);
+  const double least = is_force_ ? kSignalTuning.most_in_any_unit : kSignalTuning.most_of_a_vehicle;
+  const double most =
+      std::clamp(kSignalTuning.most_times_usual * usual_size_.median(), least, kSignalTuning.most_in_any_unit);
   usual_size_.add(size);
-  believed_ = size > most ? 0 : std::min(believed_ + 1, kBelievedAgain);
-  return believed_ < kBelievedAgain;
+  believed_ = size > most ? 0 : std::min(believed_ + 1, kSignalTuning.believed_again);
+  return believed_ < kSignalTuning.believed_again;
 }
 
 bool StreamGate::isClipped(double acceleration) {

@@ -5,18 +5,17 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/signal/alignment.h"
-#include "suspension_health_monitor/internal/signal/grid_streams.h"
-#include "suspension_health_monitor/internal/text.h"
-#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 
 void AlignmentJudge::addInstant(Stamp reference) {
   const Stamp spacing = last_ ? reference - *last_ : Stamp::zero();
   last_ = reference;
-  if (2 * spacing < 3 * period_ || spacing > kLongestLoss * period_) return;
-  const double longest = kInterruptions * fill_ / std::log(2.0) * toSeconds(period_);
+  if (2 * spacing < 3 * period_ || spacing > kSignalTuning.longest_loss * period_) return;
+  const double longest = kSignalTuning.interruptions * fill_ / std::log(2.0) * toSeconds(period_);
   const bool often = interruptions_.full() && toSeconds(reference - interruptions_.front()) < longest;
   if (verdict_ == Verdict::kDoesWell && often) verdict_ = Verdict::kInterrupted;
   interruptions_.push_back(reference);
@@ -32,7 +31,7 @@ void AlignmentJudge::addPair(std::size_t stream, Stamp reference, Stamp partner)
 
 void AlignmentJudge::addLone(std::size_t stream) {
   Outcomes& outcomes = outcomes_[stream];
-  if (++outcomes.lone_in_a_row > kLongestRow) return;
+  if (++outcomes.lone_in_a_row > kSignalTuning.longest_row) return;
   ++outcomes.lone;
   judge(outcomes);
 }
@@ -44,10 +43,10 @@ void AlignmentJudge::startNewSeries() {
 }
 
 void AlignmentJudge::judge(Outcomes& outcomes) {
-  if (outcomes.pairs + outcomes.lone < kOutcomes) return;
+  if (outcomes.pairs + outcomes.lone < kSignalTuning.outcomes) return;
   if (verdict_ == Verdict::kDoesWell) {
-    if (toSeconds(outcomes.apart) > kMostShare * outcomes.pairs * toSeconds(period_)) verdict_ = Verdict::kApart;
-    if (outcomes.lone > kMostShare * kOutcomes) verdict_ = Verdict::kLoneReadings;
+    if (toSeconds(outcomes.apart) > kSmall * outcomes.pairs * toSeconds(period_)) verdict_ = Verdict::kApart;
+    if (outcomes.lone > kSmall * kSignalTuning.outcomes) verdict_ = Verdict::kLoneReadings;
   }
   outcomes.pairs = outcomes.lone = 0;
   outcomes.apart = {};
@@ -160,26 +159,11 @@ void StreamGrid::startNewSeries(std::size_t first) {
     if (i != first) streams_[i].gate.startNewSeries();
 }
 
-std::string StreamGrid::whatIsTooSlow() const {
-  double spacing = 0.0;
+double StreamGrid::longestPeriod() const {
+  double longest = 0.0;
   for (const GridStream& each : streams_)
-    if (each.options.required) spacing = std::max(spacing, each.gate.clock().period());
-  if (spacing < 1.5 * toSeconds(period_)) return "";
-  std::ostringstream text;
-  text.precision(4);
-  text << "readings come every " << spacing << " s (" << 1.0 / spacing
-       << " Hz), but sample_period = " << toSeconds(period_) << " [s]";
-  return text.str();
-}
-
-std::string StreamGrid::why() const {
-  const std::string slow = paired_.verdict() == AlignmentJudge::Verdict::kInterrupted ? whatIsTooSlow() : "";
-  return slow.empty() ? describe(paired_.verdict()) : slow;
-}
-
-std::string StreamGrid::describeAlignment() const {
-  if (!resamples_) return "paired";
-  return why().empty() ? "resampled" : "resampled because " + why();
+    if (each.options.required) longest = std::max(longest, each.gate.clock().period());
+  return longest;
 }
 
 RejectCounts StreamGrid::rejected(std::size_t stream) const {

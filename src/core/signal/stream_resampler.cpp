@@ -25,7 +25,7 @@ void SmoothingSpline::penaliseNewest() {
 
 void SmoothingSpline::penalise(const std::array<double, kOpen>& difference) {
   for (int i = 0; i < kOpen; ++i)
-    for (int j = 0; j <= i; ++j) matrix_[i][j] += kPenalty * difference[i] * difference[j];
+    for (int j = 0; j <= i; ++j) matrix_[i][j] += kSignalTuning.penalty * difference[i] * difference[j];
 }
 
 void SmoothingSpline::add(double position, double value) {
@@ -87,10 +87,6 @@ void SmoothingSpline::solve(std::int64_t first, std::int64_t settled) {
 
 namespace {
 
-// -6 dB [cycles per grid period]. Nearly half of the power passes at half the rate of the grid, and what is folded back
-// there makes up for it: white noise stays white.
-constexpr double kCutoff = 0.516;
-constexpr double kKaiser = 4.0;                              // shape of the window: ripple 2e-3
 constexpr int kReach = 2 * StreamResampler::kHalfWidth + 1;  // of the filter on the coefficients [knots]
 
 using Taps = Eigen::Matrix<double, 2 * kReach + 1, 1>;
@@ -100,8 +96,8 @@ using Taps = Eigen::Matrix<double, 2 * kReach + 1, 1>;
 Taps makeTaps() {
   Taps taps = Taps::Zero();
   for (int k = 1 - kReach; k < kReach; ++k) {
-    const double place = static_cast<double>(k) / (kReach - 1), angle = M_PI * kCutoff * k;
-    const double window = std::cyl_bessel_i(0.0, kKaiser * std::sqrt(1.0 - place * place));
+    const double place = static_cast<double>(k) / (kReach - 1), angle = M_PI * kSignalTuning.cutoff * k;
+    const double window = std::cyl_bessel_i(0.0, kSignalTuning.kaiser * std::sqrt(1.0 - place * place));
     const double sinc = k == 0 ? 1.0 : std::sin(angle) / angle;
     taps.segment<3>(kReach + k - 1) += sinc * window * Eigen::Vector3d(1.0, 4.0, 1.0);
   }
@@ -139,8 +135,8 @@ StreamResampler::Coverage StreamResampler::advance(Stamp t, ReadingQueue& waitin
 
 bool StreamResampler::followsAfterGap(const SensorReading& reading) const {
   const double period = toSeconds(period_);
-  const double usual = std::clamp(reading.usual_spacing, period, kSlowest * period);
-  return toSeconds(reading.taken - last_.taken) > kLongestBridge * usual;
+  const double usual = std::clamp(reading.usual_spacing, period, kSignalTuning.slowest * period);
+  return toSeconds(reading.taken - last_.taken) > kSignalTuning.longest_bridge * usual;
 }
 
 void StreamResampler::begin(const SensorReading& reading) {

@@ -13,7 +13,7 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
       road_(options, Accelerometer::Place::kRoad),
       sway_(options),
       sway_sensor_(options),
-      faults_(SensorFaults::from(options.hidden_faults)),
+      faults_(SimulatedFaults::from(options.hidden_faults)),
       now_(scenario_.driven, {scenario_.road}, 1.0 / fasterRate(options)),
       delayed_(now_) {}
 

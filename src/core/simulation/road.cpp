@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

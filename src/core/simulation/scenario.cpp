@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -84,7 +84,7 @@ void validate(const SimulationOptions& options) {
     refuse("number of hidden effects", static_cast<double>(options.hidden.size()), "",
            "at most " + std::to_string(kMostHiddenEffects));
   }
-  const SensorFaults faults = SensorFaults::from(options.hidden_faults);
+  const SimulatedFaults faults = SimulatedFaults::from(options.hidden_faults);
   const auto acts = [](const std::array<double, 2>& sizes) { return sizes[0] != 0.0 || sizes[1] != 0.0; };
   if (acts(faults.tilt) && options.body_acceleration == 0.0)
     refuse("body_acceleration", 0.0, "m/s^2", "above 0 for mount_tilt to show");

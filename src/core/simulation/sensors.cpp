@@ -2,10 +2,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <vector>
-
-#include "suspension_health_monitor/internal/simulation/random_stream.h"
-#include "suspension_health_monitor/internal/simulation/scenario.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -107,8 +103,8 @@ Sway SwaySensor::read(Sway sway) {
   return sway;
 }
 
-SensorFaults SensorFaults::from(const std::vector<ActiveMeasurementEffect>& hidden) {
-  SensorFaults faults;
+SimulatedFaults SimulatedFaults::from(const std::vector<ActiveMeasurementEffect>& hidden) {
+  SimulatedFaults faults;
   for (const ActiveMeasurementEffect& active : hidden) {
     const std::string& name = active.effect.name;
     const std::vector<double>& sizes = active.coefficients;
@@ -129,11 +125,11 @@ SensorFaults SensorFaults::from(const std::vector<ActiveMeasurementEffect>& hidd
   return faults;
 }
 
-double SensorFaults::readAtRest(double gravity) const {
+double SimulatedFaults::readAtRest(double gravity) const {
   return (1.0 + gain_error) * std::cos(std::hypot(tilt[0], tilt[1])) * gravity;
 }
 
-double SensorFaults::read(double acceleration, const Sway& sway) const {
+double SimulatedFaults::read(double acceleration, const Sway& sway) const {
   // Away from the strut's top a turning body moves up by (angular acceleration) x (position), z component.
   const double here =
       acceleration + sway.angular_acceleration[0] * position[1] - sway.angular_acceleration[1] * position[0];

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/setting_groups.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
-#include "suspension_health_monitor/internal/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

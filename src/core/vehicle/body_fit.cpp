@@ -8,24 +8,18 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "rigid_body_rows.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kLeastPhi = 1e-4, kMostPhi = 1.0;
-constexpr int kHalvings = 14;  // of the logarithm of phi: to 0.06 %
-// Multibody vehicles without bars kept more than 2.5 % with false ones in the model, those with bars 1.1 % with them.
-constexpr double kLeastLeft = 0.02;
-constexpr double kFall = 3.0;  // phi without bars over that with them
-constexpr double kSmallest = 1e-6;
 
 /// @return x or y less its middle, over its mean size; zero where all are alike.
 Eigen::VectorXd scaled(const Eigen::VectorXd& values, double& middle, double& scale) {
   middle = values.mean();
   const Eigen::VectorXd from = values.array() - middle;
   scale = from.norm() / std::sqrt(static_cast<double>(values.size()));
-  return scale > kSmallest ? Eigen::VectorXd(from / scale) : Eigen::VectorXd::Zero(values.size());
+  return scale > kVehicleTuning.smallest_spread ? Eigen::VectorXd(from / scale) : Eigen::VectorXd::Zero(values.size());
 }
 
 }  // namespace
@@ -40,7 +34,7 @@ std::vector<StrutPair> pairsOf(const StrutPlaces& places) {
   std::vector<StrutPair> pairs;
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = i + 1; j < places.size(); ++j)
-      if (std::abs(places[i][0] - places[j][0]) <= kSideBySide * (ahead - behind) &&
+      if (std::abs(places[i][0] - places[j][0]) <= kSmall * (ahead - behind) &&
           (places[i][1] - side) * (places[j][1] - side) < 0.0)
         pairs.emplace_back(i, j);
   return pairs;
@@ -58,8 +52,8 @@ BodyFit::BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs)
   // Two struts, or all on one line, do not see the body turn about that line.
   Eigen::MatrixXd q(n, 3);
   q << Eigen::VectorXd::Ones(n), x, y;
-  sees_pitch_ = scale_[0] > kSmallest;
-  sees_roll_ = scale_[1] > kSmallest && q.colPivHouseholderQr().rank() == (sees_pitch_ ? 3 : 2);
+  sees_pitch_ = scale_[0] > kVehicleTuning.smallest_spread;
+  sees_roll_ = scale_[1] > kVehicleTuning.smallest_spread && q.colPivHouseholderQr().rank() == (sees_pitch_ ? 3 : 2);
   q_.resize(n, 1 + (sees_pitch_ ? 1 : 0) + (sees_roll_ ? 1 : 0));
   q_.col(0).setOnes();
   if (sees_pitch_) q_.col(1) = x;
@@ -100,9 +94,9 @@ std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitRes
 
 // The phi that makes chi2 equal to its degrees of freedom.
 std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitResult::Bars bars) const {
-  double low = std::log(kLeastPhi), high = std::log(kMostPhi);
+  double low = std::log(kVehicleTuning.least_phi), high = std::log(kVehicleTuning.most_phi);
   std::optional<Solution> best;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kVehicleTuning.halvings; ++i) {
     const double middle = 0.5 * (low + high);
     auto solution = solve(rows, bars, std::exp(middle), best ? best->parameters : Eigen::VectorXd());
     if (!solution) return std::nullopt;
@@ -122,10 +116,23 @@ bool BodyFit::hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars)
   return false;
 }
 
+// Where laws with memory look like bars the body that goes with them is none.
+bool BodyFit::isVehicle(const Eigen::VectorXd& numbers) const {
+  const auto isPlausible = [&](int axis, Eigen::Index column) {
+    const double most = kVehicleTuning.longest_gyration * scale_[axis] * q_.col(column).cwiseAbs().maxCoeff();
+    return numbers[axis] * most * most > 1.0;
+  };
+  return (!sees_pitch_ || isPlausible(0, 1)) && (!sees_roll_ || isPlausible(1, q_.cols() - 1));
+}
+
 bool BodyFit::isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
                       const std::vector<BodyRows>& halves) const {
-  if (halves.size() < 2 || !(with.phi < kLeastLeft) || !(without.phi > kFall * with.phi)) return false;
+  // Multibody vehicles without bars kept a phi of more than 2.5 % with false ones, those with bars 1.1 % with them.
+  if (halves.size() < 2 || !(with.phi < kWorthHaving) || !(without.phi > kMuchMore * with.phi)) return false;
   const RigidBodyRows functor(q_, pairs_, bars, halves.front(), with.phi);
+  // Of fewer numbers that are left over nobody knows how much is left: two struts fit a bar that is none.
+  if (functor.degreesOfFreedom() < kFewestForScatter) return false;
+  if (!isVehicle(inertia(functor.body(with.parameters)))) return false;
   std::vector<Solution> parts{with};
   for (const BodyRows& half : halves) {
     const auto part = solve(half, bars, with.phi, with.parameters);
@@ -158,7 +165,7 @@ std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vecto
     const auto with = solve(rows, bars);
     if (!with) break;
     phi_of[static_cast<std::size_t>(bars)] = with->phi;
-    if (result.bars != Bars::kNone && !(result.phi > kFall * with->phi)) break;
+    if (result.bars != Bars::kNone && !(result.phi > kMuchMore * with->phi)) break;
     if (isNamed(*without, *with, bars, halves)) result = describe(*with, bars);
     // Bars that damp, too, are many numbers, which fit what is no bar: of a vehicle that has them the stiffnesses alone
     // leave more, but are not negative.
@@ -169,8 +176,6 @@ std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vecto
 }
 
 namespace {
-
-constexpr double kStep = 1e-6;  // relative, of differences
 
 bool isProven(const Measured& number) { return number.value > kProven * number.stddev; }
 
@@ -271,7 +276,7 @@ BodyFitResult BodyFit::describe(const Solution& solution, BodyFitResult::Bars ba
     const double value = number(solution.parameters);
     Eigen::VectorXd slope(functor.inputs());
     for (int i = 0; i < functor.inputs(); ++i) {
-      const double step = kStep * std::max(1.0, std::abs(solution.parameters[i]));
+      const double step = kDifferenceStep * std::max(1.0, std::abs(solution.parameters[i]));
       Eigen::VectorXd moved = solution.parameters;
       moved[i] += step;
       slope[i] = (number(moved) - value) / step;

@@ -3,30 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
+
 namespace suspension_health_monitor {
-namespace {
-
-constexpr int kMeans = 3;                 // of a mean of a mean
-constexpr double kOffsetMemory = 40.0;    // [s]
-constexpr double kWashout = 1.0 / 200.0;  // of the natural frequency
-constexpr double kDamping = 0.7;
-// A washout of so many over the age of a series: what its start left is forgotten as fast as anything can be told.
-constexpr double kStart = 2.0;
-
-}  // namespace
-
 int TravelObserver::delayOf(int natural_period) {
-  return BandlimitedInterpolator::kHalfWidth + kMeans * natural_period / 2;
+  return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
 }
 
 TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natural_period)
     : period_(period),
-      washout_(kWashout * std::sqrt(stiffness_to_mass)),
-      horizon_(std::pow(natural_period * period, kMeans)),
+      washout_(kVehicleTuning.washout * std::sqrt(stiffness_to_mass)),
+      horizon_(std::pow(natural_period * period, kVehicleTuning.means)),
       step_(0.0, 1.0, period),
-      offset_(std::exp(-period / kOffsetMemory)),
-      slow_(now_.size(), LinearIntegralFilter(kMeans, {natural_period, period, IntegrationRule::kTrapezoid}, 0)),
-      recent_(now_.size(), boost::circular_buffer<double>(static_cast<std::size_t>(kMeans * natural_period / 2) + 1)) {}
+      offset_(std::exp(-period / kVehicleTuning.offset_memory)),
+      slow_(now_.size(),
+            LinearIntegralFilter(kVehicleTuning.means, {natural_period, period, IntegrationRule::kTrapezoid}, 0)),
+      recent_(now_.size(),
+              boost::circular_buffer<double>(static_cast<std::size_t>(kVehicleTuning.means * natural_period / 2) + 1)) {
+}
 
 void TravelObserver::push(double relative_acceleration) {
   offset_.add(relative_acceleration);
@@ -35,8 +29,8 @@ void TravelObserver::push(double relative_acceleration) {
   if (input_.full()) {
     const WheelStep gain = step_(input_.window());
     age_ += period_;
-    const double washout = std::max(washout_, kStart / age_);
-    leaves = washout * (2.0 * kDamping * rate + washout * travel);
+    const double washout = std::max(washout_, kVehicleTuning.washout_start / age_);
+    leaves = washout * (2.0 * kVehicleTuning.washout_damping * rate + washout * travel);
     travel += period_ * rate + gain.end_position;
     rate += gain.end_velocity - period_ * leaves;
   }
@@ -63,14 +57,12 @@ void TravelObserver::startNewSeries() {
 
 namespace {
 
-constexpr double kMeanMemory = 10.0;  // [s]
-constexpr double kLongest = 4.0;      // natural period [s]: softer is no suspension
-
 // That of the slowest strut [samples], even.
 int naturalPeriod(const std::vector<StrutModel>& models, double period) {
   double slowest = 0.0;
   for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
-  return 2 * std::max(1, static_cast<int>(std::lround(std::min(slowest, kLongest) / (2.0 * period))));
+  return 2 *
+         std::max(1, static_cast<int>(std::lround(std::min(slowest, kVehicleTuning.longest_period) / (2.0 * period))));
 }
 
 }  // namespace
@@ -79,12 +71,14 @@ Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<Stru
                      const std::vector<double>& low_pass)
     : period_(period),
       taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass),
-      force_means_(static_cast<std::size_t>(rows.force.cols()), LimitedMean(std::exp(-period / kMeanMemory))) {
+      force_means_(static_cast<std::size_t>(rows.force.cols()),
+                   LimitedMean(std::exp(-period / kVehicleTuning.mean_memory))) {
   setRows(rows);
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models)
     struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period),
-                       LimitedMean(std::exp(-period / kMeanMemory)), RunningMean(std::exp(-period / kMeanMemory)),
+                       LimitedMean(std::exp(-period / kVehicleTuning.mean_memory)),
+                       RunningMean(std::exp(-period / kVehicleTuning.mean_memory)),
                        boost::circular_buffer<Observed>(taps_.size())});
   recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + taps_.size() / 2 + 1);
 }

@@ -3,16 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr std::ptrdiff_t kParts = 5;  // of the while: of ten seconds, shorter ones than braking takes
 
 using Readings = std::vector<Eigen::Vector3d>;
 
@@ -34,50 +31,43 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 BodyLevel::BodyLevel(const Readings& accelerations) {
   const auto begin = accelerations.begin(), end = accelerations.end();
-  std::array<Eigen::Vector3d, kParts> parts;
+  std::array<Eigen::Vector3d, kVehicleTuning.fewest_parts> parts;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  for (std::ptrdiff_t i = 0; i < kParts; ++i) {
+  for (std::ptrdiff_t i = 0; i < kVehicleTuning.fewest_parts; ++i) {
     Eigen::Vector3d& part = parts[static_cast<std::size_t>(i)];
-    part = medianOf(begin + (end - begin) * i / kParts, begin + (end - begin) * (i + 1) / kParts);
-    gravity += part / kParts;
+    part = medianOf(begin + (end - begin) * i / kVehicleTuning.fewest_parts,
+                    begin + (end - begin) * (i + 1) / kVehicleTuning.fewest_parts);
+    gravity += part / kVehicleTuning.fewest_parts;
   }
   if (!(gravity.norm() >= kStandardGravity / 2.0)) return;  // which no offset is
   if (std::abs(gravity.norm() - kStandardGravity) > kUsualOffset) gain_ = gravity.norm() / kStandardGravity;
   lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
   is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
-    return angleBetween(part, gravity) <= 0.5 * kUsualLean;
+    return angleBetween(part, gravity) <= 0.5 * kVehicleTuning.usual_lean;
   });
   if (isTurned()) mount_ = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-bool BodyLevel::isTurned() const { return lean_ > kUsualLean; }
-
-namespace {
-
-constexpr double kPart = 2.0;    // [s]
-constexpr double kFewest = 5.0;  // parts: ten seconds
-constexpr double kMost = 60.0;   // parts that count: two minutes
-constexpr double kOtherAxis = M_PI / 4.0;
-
-}  // namespace
+bool BodyLevel::isTurned() const { return lean_ > kVehicleTuning.usual_lean; }
 
 void MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   if (!acceleration.allFinite()) return;
   if (!begin_ || stamp < *begin_) begin_ = stamp, sum_.setZero(), count_ = 0.0;
   sum_ += acceleration;
   count_ += 1.0;
-  if (toSeconds(stamp - *begin_) < kPart) return;
+  if (toSeconds(stamp - *begin_) < kVehicleTuning.part) return;
   const Eigen::Vector3d off = sum_ / count_ - mean_;
-  parts_ = std::min(parts_ + 1.0, kMost);
+  parts_ = std::min(parts_ + 1.0, kVehicleTuning.most_parts);
   mean_ += off / parts_;
-  scatter_ += (1.0 - 1.0 / parts_) * off.squaredNorm() - (parts_ < kMost ? 0.0 : scatter_ / kMost);
+  scatter_ += (1.0 - 1.0 / parts_) * off.squaredNorm() -
+              (parts_ < kVehicleTuning.most_parts ? 0.0 : scatter_ / kVehicleTuning.most_parts);
   begin_.reset();
 }
 
 std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) const {
   Finding found;
   found.size = mean_.norm();
-  if (parts_ < kFewest || found.size < kStandardGravity / 2.0) return std::nullopt;
+  if (parts_ < kVehicleTuning.fewest_parts || found.size < kStandardGravity / 2.0) return std::nullopt;
   found.lean = angleBetween(mean_, up);
   found.lean_stddev = std::sqrt(scatter_ / (parts_ - 1.0) / parts_) / found.size;
   mean_.cwiseAbs().maxCoeff(&found.axis);
@@ -85,13 +75,15 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   return found;
 }
 
-// From what rounds to kUsualLean on.
-bool MountClaim::Finding::isLeaning() const { return lean > kUsualLean - 0.5 / 180.0 * M_PI + kProven * lean_stddev; }
+// From what rounds to kVehicleTuning.usual_lean on.
+bool MountClaim::Finding::isLeaning() const {
+  return lean > kVehicleTuning.usual_lean - 0.5 / 180.0 * M_PI + kProven * lean_stddev;
+}
 
-bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kOtherAxis; }
+bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kVehicleTuning.other_axis; }
 
 bool MountClaim::Finding::leansAs(const Finding& other) const {
-  return std::abs(lean - other.lean) < kUsualLean && lean < kOtherAxis;
+  return std::abs(lean - other.lean) < kVehicleTuning.usual_lean && lean < kVehicleTuning.other_axis;
 }
 
 bool MountClaim::Finding::isWrongSize() const { return std::abs(size - kStandardGravity) > kUsualOffset; }

@@ -7,12 +7,10 @@
 
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr std::size_t kDriveSamples = 1 << 14;  // the rms of so many has an error of 0.6 %
-constexpr double kSmall = 1e-3;                 // of a reading: products of two of them are nothing
 
 /// What follows one wrong reading of a stream.
 /// @param tops  new ones.
@@ -22,12 +20,12 @@ StrutDrives responseOf(StrutTops tops, std::size_t num_struts, Stamp period, std
   const int fill = 2 * tops.delay();
   for (int k = 0; k <= 2 * fill; ++k) {
     GridInstant instant{k * period, std::vector<double>(num_streams, 0.0), std::vector<bool>(num_streams, true)};
-    if (k == fill) instant.values[stream] = kSmall;
+    if (k == fill) instant.values[stream] = kDifferenceStep;
     const VehicleSample* sample = tops.push(instant);
     for (std::size_t i = 0; sample != nullptr && i < response.size(); ++i) {
       CornerSample& of_strut = response[i].samples.emplace_back(sample->ofStrut(i));
-      of_strut.sprung_acceleration *= deviation / kSmall;
-      of_strut.unsprung_acceleration *= deviation / kSmall;
+      of_strut.sprung_acceleration *= deviation / kDifferenceStep;
+      of_strut.unsprung_acceleration *= deviation / kDifferenceStep;
     }
   }
   return response;
@@ -85,16 +83,17 @@ std::ptrdiff_t mostStrutsOfASensor(const SensorNoise& noise) {
 StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {
   StrutDrives drive(noise.front().size());
   for (Drive& strut : drive)
-    for (std::size_t k = 0; k < kDriveSamples; ++k)
+    for (std::size_t k = 0; k < kVehicleTuning.noise_drive; ++k)
       strut.samples.push_back({static_cast<int>(k) * fromSeconds(period), 0.0, 0.0});
   std::mt19937_64 engine;
   std::normal_distribution<double> normal;
   for (const StrutDrives& response : noise) {
     const std::size_t length = response.front().samples.size();
-    for (std::size_t k = 0; k < kDriveSamples + length - 1; ++k) {
+    for (std::size_t k = 0; k < kVehicleTuning.noise_drive + length - 1; ++k) {
       const double reading = normal(engine);
       for (std::size_t i = 0; i < drive.size(); ++i)
-        for (std::size_t l = k < kDriveSamples ? 0 : k - kDriveSamples + 1; l < length && l <= k; ++l) {
+        for (std::size_t l = k < kVehicleTuning.noise_drive ? 0 : k - kVehicleTuning.noise_drive + 1;
+             l < length && l <= k; ++l) {
           const CornerSample& after = response[i].samples[l];
           CornerSample& sample = drive[i].samples[k - l];
           sample.sprung_acceleration += reading * after.sprung_acceleration;
@@ -106,11 +105,6 @@ StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {
 }
 
 namespace {
-
-constexpr double kReach = 0.1;  // [s]; twice as far takes 2 % more
-// Errors of the models, which are in the residuals, too, in the unit of the noise: twice that of an accelerometer.
-// With less, sums of residuals that have next to no noise carry over into each strut what the ratios are off by.
-constexpr double kModelVariance = 4.0;
 
 /// What a strut's free run leaves, sample by sample of a drive.
 struct Left {
@@ -188,7 +182,7 @@ Weights weightsOf(std::size_t strut, std::size_t num_struts, const Covariances& 
     for (Eigen::Index b = 0; b < unknowns; ++b)
       moments(a, b) = covariance(of_a, others[static_cast<std::size_t>(b / lags)], b % lags - a % lags);
   }
-  moments.diagonal().array() += kModelVariance;
+  moments.diagonal().array() += kVehicleTuning.model_variance;
   const Eigen::VectorXd solution = moments.llt().solve(target);
   return Eigen::Map<const Weights>(solution.data(), lags, static_cast<Eigen::Index>(others.size()));
 }
@@ -227,7 +221,7 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   for (const StrutDrives& drive : drives) of_drives.push_back(leftOf(drive, period, models));
   const auto runs_away = [](const std::vector<Left>& left) { return left.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
-  const auto reach = static_cast<Eigen::Index>(std::lround(kReach / period));
+  const auto reach = static_cast<Eigen::Index>(std::lround(kVehicleTuning.noise_reach / period));
   const Covariances covariance(of_noise, 2 * reach);
   for (std::size_t i = 0; i < noise.size(); ++i) {
     const Weights weights = weightsOf(i, noise.size(), covariance, reach);

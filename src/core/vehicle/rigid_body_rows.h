@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 
 namespace suspension_health_monitor {

@@ -1,10 +1,9 @@
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 
-#include <algorithm>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
-#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/decoupler.h"
 
 namespace suspension_health_monitor {

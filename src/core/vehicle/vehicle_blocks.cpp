@@ -1,19 +1,15 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
+
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kLeastUpperEdge = 2.5, kMostPeriods = 6.0;  // of the bounce in a block; 1.6 of a usual one
-constexpr double kUsualDamping = 0.6;                        // b1 over the bounce: a damping ratio of 0.3
-// Instruments need not be exact: a model that is wrong by this share of a row's largest coefficient costs its square of
-// the information.
-constexpr double kStaleRows = 0.1;
-constexpr double kChanged = 2.0;  // standard deviations from which a neighbour counts as changed
 
 const VehicleChannels& checked(const VehicleChannels& vehicle) {
   requireNumStruts(vehicle.struts.size());
@@ -39,7 +35,7 @@ VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions&
       last_(2 * size() + vehicle.known_forces.size() + 2),
       modulation_(BlockBand(length_, period)) {
   for (std::size_t i = 0; i < size(); ++i) estimates_[i].strut = i;
-  while (period_ >= FourierIntegrals::kLongestSpacing * length_) length_ *= 2.0;
+  while (period_ >= kBlockTuning.longest_spacing * length_) length_ *= 2.0;
   begin(length_);
 }
 
@@ -52,8 +48,11 @@ void VehicleBlocks::begin(double length) {
   spectra_.emplace(band, vehicle_, effects_);
   friction_.assign(size(), SlidingFriction::ofBlocks(length));
   // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
-  const double bounce = 2.0 * M_PI * std::sqrt(kLeastUpperEdge / (1.0 + kUsualDamping) * kMostPeriods) / length;
-  for (SlidingFriction& each : friction_) each.setStrut(kUsualDamping * bounce, bounce * bounce, 0.0);
+  const double bounce =
+      2.0 * M_PI *
+      std::sqrt(kVehicleTuning.least_upper_edge / (1.0 + kVehicleTuning.usual_damping) * kVehicleTuning.most_periods) /
+      length;
+  for (SlidingFriction& each : friction_) each.setStrut(kVehicleTuning.usual_damping * bounce, bounce * bounce, 0.0);
   for (std::size_t i = 0; i < size(); ++i) {
     estimators_.emplace_back(band, columns_, options_);
     if (before.estimators.empty() || !before.estimators[i].hasTheta()) continue;
@@ -220,7 +219,7 @@ void VehicleBlocks::scaleNeighbours(std::size_t strut) {
     const TopEstimate& now = estimates_[j];
     for (const int i : {kBlockDamping, kBlockStiffness}) {
       const double factor = now.theta[i] / all->theta[i], stddev = std::sqrt(now.covariance(i, i)) / all->theta[i];
-      const bool has_changed = std::abs(factor - 1.0) > kChanged * stddev;
+      const bool has_changed = std::abs(factor - 1.0) > kLikely * stddev;
       const int column = columnOf(strut, j) + i;
       estimators_[strut].scaleSlow(column, has_changed ? factor : 1.0, has_changed ? stddev : 0.0);
     }
@@ -246,7 +245,8 @@ void VehicleBlocks::updateModel() {
       rows_.force(row, static_cast<Eigen::Index>(k)) = theta[known + static_cast<int>(k)];
     const TopRows& before = model_->rows();
     const auto moved = [&](const Eigen::MatrixXd& now, const Eigen::MatrixXd& then) {
-      return (now.row(row) - then.row(row)).cwiseAbs().maxCoeff() > kStaleRows * now.row(row).cwiseAbs().maxCoeff();
+      // Instruments need not be exact: an error of a tenth costs a hundredth of the information.
+      return (now.row(row) - then.row(row)).cwiseAbs().maxCoeff() > kSmall * now.row(row).cwiseAbs().maxCoeff();
     };
     is_stale = is_stale || moved(rows_.rate, before.rate) || moved(rows_.travel, before.travel);
   }
@@ -261,8 +261,8 @@ void VehicleBlocks::updateModel() {
 }
 
 // Blocks that are too short lose the bounce below their lowest bin, of two periods in a block, the more of it the
-// sharper its resonance is; in blocks of more than kMostPeriods it is in few bins of many, and they are slower than
-// they need to be. The strut that bounces slowest decides.
+// sharper its resonance is; in blocks of more than kVehicleTuning.most_periods it is in few bins of many, and they are
+// slower than they need to be. The strut that bounces slowest decides.
 void VehicleBlocks::follow() {
   double periods = std::numeric_limits<double>::infinity(), upper_edge = periods;
   for (const BlockEstimator& each : estimators_) {
@@ -272,9 +272,9 @@ void VehicleBlocks::follow() {
     // of the resonance, its width above its peak
     upper_edge = std::min(upper_edge, own * (1.0 + each.theta()[kBlockDamping] / bounce));
   }
-  if (upper_edge < kLeastUpperEdge)
+  if (upper_edge < kVehicleTuning.least_upper_edge)
     begin(2.0 * length_);
-  else if (periods > kMostPeriods && period_ < FourierIntegrals::kLongestSpacing * length_ / 2.0)
+  else if (periods > kVehicleTuning.most_periods && period_ < kBlockTuning.longest_spacing * length_ / 2.0)
     begin(0.5 * length_);
 }
 

@@ -6,21 +6,14 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 using Kind = VehicleMistake::Kind;
-
-constexpr double kSame = 1e-9;   // 1 - r^2 of two streams of one sensor, by rounding; noise of two makes 1e-5
-constexpr double kAlike = 0.01;  // of a wheel's power is all that the other wheels do not have: a tenth of its motion
-constexpr double kBetter = 0.5;  // of what the file leaves beyond noise
-constexpr double kNoiseKnownTo = 0.1;  // of its mean: with it 300 numbers, of all bins, rows and columns
-constexpr double kFits = 0.2;          // of the tops' motion, that a file which is right leaves at most
-constexpr double kMuch = 0.02;         // that goes with the wheels, and no strut of theirs makes; links make 0.003
-constexpr double kCosts = 0.05;        // of b1 or b0: less is not worth a word
-constexpr int kRefinements = 3;
 
 double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j) {
   const double own = products(i, i) * products(j, j);
@@ -39,6 +32,7 @@ VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen
       products_(columns_.size()) {
   whole_.setZero(2 * n_, 2 * n_);
   measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
+  by_links_.setZero(n_, 2);
   in_step_ = measured_;
 }
 
@@ -116,7 +110,7 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
   found.unexplained = left[static_cast<std::size_t>(best)];
   if (sizes.size() == 1) return found;
   double step = sizes[1] - sizes[0], curvature = 0.0;
-  for (int i = 0; i < kRefinements; ++i, step *= 0.5) {
+  for (int i = 0; i < kVehicleTuning.refinements; ++i, step *= 0.5) {
     const double below = fit(hypothesis, found.size - step).unexplained,
                  above = fit(hypothesis, found.size + step).unexplained;
     curvature = (below + above - 2.0 * found.unexplained) / (step * step);
@@ -141,12 +135,12 @@ VehicleMistake VehicleClaims::sameOrAlike() const {
   };
   for (Eigen::Index i = 0; i < n_; ++i)
     for (Eigen::Index j = i + 1; j < n_; ++j) {
-      if (notShared(whole_, i, j) < kSame) return {Kind::kSameWheels, pairOf(i, j)};
-      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kSame) return {Kind::kSameTops, pairOf(i, j)};
+      if (notShared(whole_, i, j) < kRounding) return {Kind::kSameWheels, pairOf(i, j)};
+      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kRounding) return {Kind::kSameTops, pairOf(i, j)};
     }
   const Eigen::MatrixXd wheels = whole_.topLeftCorner(n_, n_), inverse = wheels.inverse();
   VehicleMistake found;
-  double least = kAlike;
+  double least = square(kSmall);  // of its power: a tenth of its motion
   for (Eigen::Index i = 0; i < n_; ++i) {
     const double own = 1.0 / (wheels(i, i) * inverse(i, i));
     if (!(own < least)) continue;
@@ -169,7 +163,7 @@ bool VehicleClaims::work() {
   else
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
-  if (found_.kind == Kind::kNone && filed_.unexplained > std::max(kMuch, noiseShare() * noise_))
+  if (found_.kind == Kind::kNone && filed_.unexplained > std::max(kWorthHaving, noiseShare() * noise_))
     found_.kind = Kind::kOthers;
   return true;
 }
@@ -177,7 +171,7 @@ bool VehicleClaims::work() {
 bool VehicleClaims::begins() {
   if (hasDeadGyro())
     found_.kind = Kind::kDeadGyro;
-  else if (blocks_ < kFewestBlocks || n_ < 2)
+  else if (blocks_ < int{kFewestForScatter} || n_ < 2)
     found_.kind = Kind::kTooLittle;
   else
     found_ = sameOrAlike();
@@ -205,15 +199,20 @@ void VehicleClaims::judgeAsFiled() {
   found_.unexplained = fit(filed, measured_).unexplained;
   filed_ = fit(filed, in_step_);
   noise_ = std::max(0.0, found_.unexplained - filed_.unexplained);
-  least_ = kFits;
+  least_ = kVehicleTuning.fits;
   hypotheses_ = hypotheses();
 }
 
 void VehicleClaims::judge(const Hypothesis& hypothesis) {
   VehicleMistake other = attempt(hypothesis);
-  const double slack = kNoiseKnownTo * noiseShare() * noise_;
-  if (!(other.unexplained < least_) || !(other.unexplained + slack < kBetter * (filed_.unexplained + slack))) return;
-  if (!((fit(hypothesis, other.size).own / filed_.own - 1.0).abs().maxCoeff() > kCosts)) return;
+  const double slack = kVehicleTuning.noise_known_to * noiseShare() * noise_;
+  if (!(other.unexplained < least_) || !(other.unexplained + slack < kMajority * (filed_.unexplained + slack))) return;
+  const Eigen::ArrayXXd change = (fit(hypothesis, other.size).own / filed_.own - 1.0).abs();
+  if (!(change.maxCoeff() > kLeastDifference)) return;
+  if (other.isDelay() && std::abs(other.size) < kBlockTuning.least_delay) {
+    by_links_ = by_links_.max(change);
+    return;
+  }
   least_ = other.unexplained;
   other.unexplained = found_.unexplained;
   found_ = other;

@@ -4,17 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
-#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kLevelSeconds = 10.0;       // longer than most braking, pulling away and bends
-constexpr std::size_t kMostWindows = 3;      // of so many seconds: those take less than half of them
-constexpr double kLevelMemory = 4096.0;      // samples: the ratio of two deviations within 2 %
-constexpr std::size_t kFewestOfLevel = 256;  // the same within 5 %
 
 using Sensor = VehicleReading::Sensor;
 
@@ -26,7 +22,7 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
       vehicle_(streams.channels),
       tops_(period_, streams.channels),
       grid_(period, streams.options, options.alignment, options.fill_samples + 2 * tops_.delay()),
-      body_levels_(streams.channels.body_imu ? 6 : 0, WhiteLevel(1.0 - 1.0 / kLevelMemory)),
+      body_levels_(streams.channels.body_imu ? 6 : 0, WhiteLevel(1.0 - 1.0 / kVehicleTuning.noise_memory)),
       sink_(std::move(sink)),
       readings_(std::move(readings)) {
   for (const VehicleStreams::Sensor& sensor : streams.sensors) {
@@ -43,9 +39,11 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
   }
   // Gaps cost a level some instants.
   if (vehicle_.body_imu)
-    level_window_ = std::max(static_cast<std::size_t>(std::ceil(kLevelSeconds / period)), 2 * kFewestOfLevel);
+    level_window_ =
+        std::max(static_cast<std::size_t>(std::ceil(kVehicleTuning.part * kVehicleTuning.fewest_parts / period)),
+                 2 * kVehicleTuning.fewest_of_noise);
   num_to_wait_ = level_window_;
-  waiting_.reserve(kMostWindows * level_window_);
+  waiting_.reserve(kVehicleTuning.most_windows * level_window_);
 }
 
 bool VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
@@ -105,7 +103,7 @@ void VehicleGrid::take(const GridInstant& instant) {
   const BodyLevel newest = levelSince(waiting_.size() - level_window_);
   if (newest.isSteady()) return turnUpright(newest);
   num_to_wait_ += level_window_ / 2;
-  if (num_to_wait_ > kMostWindows * level_window_) turnUpright(levelSince(0));
+  if (num_to_wait_ > kVehicleTuning.most_windows * level_window_) turnUpright(levelSince(0));
 }
 
 void VehicleGrid::finish() {
@@ -147,11 +145,12 @@ double VehicleGrid::deviation(std::size_t first_axis) const {
 }
 
 bool VehicleGrid::hasHeardNoise() const {
-  return !body_levels_.empty() && body_levels_.front().count() >= kFewestOfLevel && deviation(0) > 0.0;
+  return !body_levels_.empty() && body_levels_.front().count() >= kVehicleTuning.fewest_of_noise && deviation(0) > 0.0;
 }
 
 SensorNoise VehicleGrid::noise() const {
-  return noiseOfStrutTops(vehicle_, period_, hasHeardNoise() ? deviation(3) / deviation(0) : kUsualGyroNoise);
+  return noiseOfStrutTops(vehicle_, period_,
+                          hasHeardNoise() ? deviation(3) / deviation(0) : kVehicleTuning.usual_gyro_noise);
 }
 
 void VehicleGrid::describe(VehicleDrive& drive) const {

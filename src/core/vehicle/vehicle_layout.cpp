@@ -7,18 +7,15 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kFarthest = 100.0;  // [m]: of any vehicle's struts from its IMU
-constexpr double kNearest = 0.01;    // [m]: two struts nearer than that are one
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
@@ -62,7 +59,8 @@ std::array<double, 3> toPosition(const std::string& where, const OptionValue& va
   if (parts.size() != position.size()) refuse(allowed);
   for (std::size_t i = 0; i < position.size(); ++i) {
     try {
-      position[i] = toNumber(where, boost::algorithm::trim_copy(parts[i]), -kFarthest, kFarthest);
+      position[i] =
+          toNumber(where, boost::algorithm::trim_copy(parts[i]), -kVehicleTuning.farthest, kVehicleTuning.farthest);
     } catch (const std::invalid_argument&) {
       refuse(allowed);
     }
@@ -140,7 +138,7 @@ void checkPositions(const VehicleLayout& layout) {
     for (auto other = layout.struts.begin(); other != strut; ++other)
       if (strut->position && other->position &&
           std::hypot((*strut->position)[0] - (*other->position)[0], (*strut->position)[1] - (*other->position)[1]) <
-              kNearest)
+              kVehicleTuning.nearest)
         refuse("struts/" + strut->name + "/position is that of struts/" + other->name +
                " too, must be another x or y: it is where the strut meets the body");
 }

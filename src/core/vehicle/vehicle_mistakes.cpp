@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 
 namespace suspension_health_monitor {
@@ -17,8 +17,6 @@ const std::vector<double> kFactors{0.6, 0.8, 1.0, 1.2, 1.4, 1.6}, kOtherSign{-1.
 const std::vector<double> kDelays{-0.05, -0.04, -0.03, -0.02, -0.01, 0.0, 0.01, 0.02, 0.03, 0.04, 0.05};
 const std::vector<double> kShifts{-0.4, -0.2, 0.0, 0.2, 0.4};  // of the wheelbase, or of the track
 
-constexpr double kLeastTurning = 0.1;  // of the heave that wheels pass on
-
 double spreadOf(const StrutPlaces& places, std::size_t axis) {
   const auto [least, most] = std::minmax_element(places.begin(), places.end(),
                                                  [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
@@ -27,7 +25,7 @@ double spreadOf(const StrutPlaces& places, std::size_t axis) {
 
 /// @return true if struts stand so far from one another along it that they see the body turn.
 bool isSpread(const StrutPlaces& places, std::size_t axis) {
-  return spreadOf(places, axis) > kSideBySide * std::max(spreadOf(places, 0), spreadOf(places, 1));
+  return spreadOf(places, axis) > kSmall * std::max(spreadOf(places, 0), spreadOf(places, 1));
 }
 
 /// @return what heave, pitch and roll do to the tops; 0 about an axis on which all stand.
@@ -42,17 +40,17 @@ Eigen::MatrixXd motionsOf(const StrutPlaces& places) {
 
 }  // namespace
 
+bool VehicleMistake::isDelay() const {
+  return kind == Kind::kLateWheel || kind == Kind::kLateTop || kind == Kind::kLateTops || kind == Kind::kLateBody;
+}
+
 bool VehicleMistake::isContradiction() const {
   switch (kind) {
     case Kind::kNone:
     case Kind::kTooLittle:
     case Kind::kAlike:
     case Kind::kOthers: return false;
-    case Kind::kLateWheel:
-    case Kind::kLateTop:
-    case Kind::kLateTops:
-    case Kind::kLateBody: return std::abs(size) < kLeastDelay;
-    default: return true;
+    default: return !isDelay();  // which the estimate finds
   }
 }
 
@@ -60,7 +58,7 @@ bool VehicleMistake::isContradiction() const {
 // half.
 bool VehicleClaims::hasDeadGyro() const {
   const Eigen::Index count = (blocks_ + 1) / 2;
-  if (places_.empty() || count < kFewestBlocks / 2) return false;
+  if (places_.empty() || count < int{kFewestForScatter} / 2) return false;
   Eigen::MatrixXd wheels = Eigen::MatrixXd::Zero(n_, n_), tops = wheels;
   for (const Eigen::MatrixXcd& columns : columns_) {
     const auto wheel = columns.topLeftCorner(n_, count), top = columns.block(n_, 0, n_, count);
@@ -72,7 +70,7 @@ bool VehicleClaims::hasDeadGyro() const {
   const Eigen::ArrayXd passed = (motions * tops * motions.transpose()).diagonal().array() /
                                 (motions * wheels * motions.transpose()).diagonal().array();
   for (const std::size_t axis : {0u, 1u})
-    if (isSpread(places_, axis) && passed[static_cast<Eigen::Index>(1 + axis)] < square(kLeastTurning) * passed[0])
+    if (isSpread(places_, axis) && passed[static_cast<Eigen::Index>(1 + axis)] < square(kSmall) * passed[0])
       return true;
   return false;
 }

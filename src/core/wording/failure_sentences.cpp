@@ -3,7 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
@@ -49,10 +50,8 @@ std::string ReadableUnit::number(double value) const {
 
 namespace {
 
-constexpr double kFollows = 0.5;     // coherence
-constexpr double kRounding = 0.005;  // of the samples, in the bins' edges
-constexpr double kNearZero = 0.05;   // of the range of most samples
-constexpr double kTail = 0.1;        // of the samples: deep compression, moving fast
+constexpr double kEdge = 0.005;     // of the samples, in the bins' edges
+constexpr double kNearZero = 0.05;  // of the range of most samples
 
 /// Where the bins have passed a share of the samples.
 double quantile(const std::vector<ResidualBin>& bins, double share) {
@@ -60,7 +59,7 @@ double quantile(const std::vector<ResidualBin>& bins, double share) {
   for (const ResidualBin& bin : bins) all += static_cast<double>(bin.count);
   for (const ResidualBin& bin : bins) {
     passed += static_cast<double>(bin.count);
-    if (passed >= (share - kRounding) * all) return bin.to;
+    if (passed >= (share - kEdge) * all) return bin.to;
   }
   return bins.back().to;
 }
@@ -69,8 +68,8 @@ double quantile(const std::vector<ResidualBin>& bins, double share) {
 struct Ends {
   explicit Ends(const std::vector<ResidualBin>& bins)
       : lowest(bins.front().from),
-        from(quantile(bins, kTail)),
-        to(quantile(bins, 1.0 - kTail)),
+        from(quantile(bins, kSmall)),
+        to(quantile(bins, 1.0 - kSmall)),
         highest(bins.back().to) {}
 
   bool isZero(double value) const { return std::abs(value) < kNearZero * (to - from); }
@@ -163,7 +162,7 @@ class FailureSentences {
     region.region = frequency_.number(region.from) + " to " + frequency_(region.to);
     const char* follows = "it does not follow the wheel in proportion, as friction, stops or loose parts do not";
     if (region.coherence > coherence_threshold_) follows = "a part of it follows the wheel in proportion";
-    if (region.coherence > std::max(kFollows, coherence_threshold_))
+    if (region.coherence > std::max(kMajority, coherence_threshold_))
       follows = "it follows the wheel in proportion, so the model's own numbers are off";
     region.sentence = "Half of what is not noise lies between " + frequency_.number(region.from) + " and " +
                       frequency_(region.to) + " (rmse " + acceleration_(region.rmse) + "); " + follows + ".";

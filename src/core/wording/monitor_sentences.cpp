@@ -2,42 +2,32 @@
 
 #include <cmath>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
 // What is the matter with the readings, and with estimates that are not valid.
 
-std::string describe(AlignmentJudge::Verdict verdict) {
-  switch (verdict) {
-    case AlignmentJudge::Verdict::kApart: return "the sensors read at different instants";
-    case AlignmentJudge::Verdict::kLoneReadings: return "many readings find no partner: the sensors' rates differ";
-    case AlignmentJudge::Verdict::kInterrupted:
-      return "readings are lost so often that the integral filter would hardly ever be full";
-    case AlignmentJudge::Verdict::kDoesWell: break;
-  }
-  return "";
-}
-
 std::string describe(EstimateDoubt doubt) {
   switch (doubt) {
     case EstimateDoubt::kNone: return "valid";
-    case EstimateDoubt::kNoRows: return "the first blocks fill after a start or a gap";
+    case EstimateDoubt::kNoRows: return "too few readings since a start or a gap";
     case EstimateDoubt::kWrongPeriod: return "stamps do not fit sample_period";
     case EstimateDoubt::kWrongUnit: return "one of the IMUs reads in g, must be in m/s^2";
     case EstimateDoubt::kFewRows: return "too few samples yet";
     case EstimateDoubt::kNotExcited:
-      return "too little motion to know damping and stiffness: drive, or on a rougher road";
-    case EstimateDoubt::kDampingNotExcited: return "too little motion to know damping: drive on, or on a rougher road";
+      return "too little motion to know damping and stiffness: drive on, or use a rougher road";
+    case EstimateDoubt::kDampingNotExcited: return "too little motion to know damping: drive on, or use a rougher road";
     case EstimateDoubt::kStiffnessNotExcited:
-      return "too little motion to know stiffness: drive on, or on a rougher road";
+      return "too little motion to know stiffness: drive on, or use a rougher road";
     case EstimateDoubt::kNotExplained:
       return "the strut explains less than half of the body's motion: other struts, other forces, or a sensor";
     case EstimateDoubt::kNotAStrut: return "the estimates are not those of a spring and a damper";
     case EstimateDoubt::kVehicleFile: return "the drives contradict the vehicle file: see what is said of the coupling";
     case EstimateDoubt::kOldData: return "parked: the newest data on the strut are older than health/oldest_data";
-    case EstimateDoubt::kDisagrees: return "not what the block estimate says";
+    case EstimateDoubt::kDisagrees: return "differs from `estimate`, or `estimate` is not valid";
     case EstimateDoubt::kFreeRunFails:
       return "the model, driven by the wheel, fits the body's motion worse than a constant";
     case EstimateDoubt::kModelError:
@@ -48,8 +38,8 @@ std::string describe(EstimateDoubt doubt) {
 }
 
 std::string describeShaking(const InputStatus& input) {
-  constexpr double kMostBeyond = 0.5, kLeastLevel = 0.3;  // of the power; [m/s^2]: more than a sensor's noise
-  if (!(input.beyond_strut > kMostBeyond && input.beyond_strut_level > kLeastLevel)) return "";
+  constexpr double kLeastLevel = 0.3;  // [m/s^2]: more than a sensor's noise
+  if (!(input.beyond_strut > kMajority && input.beyond_strut_level > kLeastLevel)) return "";
   return formatted("the sprung IMU shakes above the strut's band (%.0f %% of its power, %.2g m/s^2): engine?",
                    100.0 * input.beyond_strut, input.beyond_strut_level);
 }
@@ -85,13 +75,6 @@ std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
   if (found.estimate.valid() && found.isSteady()) return StrutOfDrive{found.estimate, "over the whole drive", horizon};
   if (found.now.valid()) return StrutOfDrive{found.now, "at the end of the drive", horizon};
   return std::nullopt;
-}
-
-Baseline nominalOf(const MonitorOptions& options) {
-  Baseline nominal;
-  nominal.damping_to_mass = options.nominal_damping_to_mass;
-  nominal.stiffness_to_mass = options.nominal_stiffness_to_mass;
-  return nominal;
 }
 
 std::string describeChange(const StrutOfDrive& found, const Baseline& healthy, const MonitorOptions& options) {
@@ -165,7 +148,7 @@ std::string describeJudgement(const HealthReport& report) {
     return "cannot tell: dry friction, or a damper that is not linear, makes too much of the difference between this "
            "road and that of the baseline (learn one on such a road)";
   if (report.level == HealthLevel::kStale && report.uncertain)
-    return "cannot tell: estimates too uncertain to prove a change (drive on, or on a rougher road)";
+    return "cannot tell: estimates too uncertain to prove a change (drive on, or use a rougher road)";
   if (report.level == HealthLevel::kStale && report.doubt == EstimateDoubt::kNone)
     return "cannot tell yet: a new level must last for health/confirm_time";
   if (report.level == HealthLevel::kStale) return "cannot tell: " + describe(report.doubt);

@@ -1,11 +1,13 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
 #include <cmath>
+#include <sstream>
 
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/signal/stream_resampler.h"
-#include "suspension_health_monitor/internal/statistics.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -49,6 +51,39 @@ std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& en
       end.damping_to_mass, end.damping_to_mass_stddev, end.stiffness_to_mass, end.stiffness_to_mass_stddev);
 }
 
+namespace {
+
+std::string describe(AlignmentJudge::Verdict verdict) {
+  switch (verdict) {
+    case AlignmentJudge::Verdict::kApart: return "the sensors read at different instants";
+    case AlignmentJudge::Verdict::kLoneReadings: return "many readings find no partner: the sensors' rates differ";
+    case AlignmentJudge::Verdict::kInterrupted:
+      return "readings are lost so often that the integral filter would hardly ever be full";
+    case AlignmentJudge::Verdict::kDoesWell: break;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string describeSlowReadings(const StreamGrid& grid) {
+  const double spacing = grid.longestPeriod();
+  if (spacing < 1.5 * grid.period()) return "";
+  std::ostringstream text;
+  text.precision(4);
+  text << "readings come every " << spacing << " s (" << 1.0 / spacing << " Hz), but sample_period = " << grid.period()
+       << " [s]";
+  return text.str();
+}
+
+std::string describeAlignment(const StreamGrid& grid) {
+  if (!grid.resamples()) return "paired";
+  const bool is_interrupted = grid.verdict() == AlignmentJudge::Verdict::kInterrupted;
+  const std::string slow = is_interrupted ? describeSlowReadings(grid) : "";
+  const std::string why = slow.empty() ? describe(grid.verdict()) : slow;
+  return why.empty() ? "resampled" : "resampled because " + why;
+}
+
 std::string describeNoPeriod(const std::string& where, std::size_t count) {
   const std::size_t fewest = PeriodMeasurement::kFewestOfRecording;
   return "the sample period cannot be measured: fewer than " + std::to_string(fewest) + " increasing stamps " + where +
@@ -67,15 +102,15 @@ std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& gr
                         std::to_string(enough) + formatted(" samples, %.3g s", enough * monitor.period()) +
                         "; usable samples in all: " + std::to_string(monitor.input().samples) +
                         ", gaps: " + std::to_string(monitor.input().gaps) + ")";
-  const std::string slow = grid.whatIsTooSlow();
+  const std::string slow = describeSlowReadings(grid);
   if (!slow.empty()) message += "; " + slow;
   return message + describeRejected(rejected);
 }
 
 std::string describeShortPeriod(double sample_period, const std::optional<double>& spacing) {
-  if (!spacing || *spacing <= StreamResampler::kSlowest * sample_period) return {};
+  if (!spacing || *spacing <= kSignalTuning.slowest * sample_period) return {};
   return formatted("sample_period = %.9g [s], must be at least %.6g: the stamps come every %.6g s", sample_period,
-                   *spacing / StreamResampler::kSlowest, *spacing);
+                   *spacing / kSignalTuning.slowest, *spacing);
 }
 
 std::string describeReference(const Baseline& baseline, const std::string& file) {
@@ -99,7 +134,7 @@ std::string describeSuspicions(const MonitorReport& report, const StreamGrid* gr
   const StreamGate &body = grid->gate(indexOf(Side::kSprung)), &wheel = grid->gate(indexOf(Side::kUnsprung));
   std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
   text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
-  if (body.deviation() > kMuchLarger * wheel.deviation() && wheel.deviation() > 0.0)
+  if (body.deviation() > kMuchMore * wheel.deviation() && wheel.deviation() > 0.0)
     text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
   return text;
 }

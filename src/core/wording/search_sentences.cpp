@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kLawOfTravelAndRate = 0.5;  // share of the structure from which on it is one
 
 const char* wordsFor(DriveKind kind) {
   switch (kind) {
@@ -56,7 +55,7 @@ std::string suggestForUnexplained(const SearchResult& result) {
   if (result.turns_body)
     return "The strut turns its body, so that others must hold it: other struts move the same body, give their IMUs, "
            "too (--vehicle, vehicle.launch).";
-  if (result.surface_share > kLawOfTravelAndRate)
+  if (result.surface_share > kMajority)
     return "A force that depends on travel and travel rate alone would explain " + percent(result.surface_share) +
            " of what is missing: describe it as a law of your own and diagnose again.";
   return "A force of travel and travel rate would explain only " + percent(result.surface_share) +
@@ -107,7 +106,7 @@ std::string suggestionOf(const SearchResult& result) {
 
 std::string remainderOf(const SearchResult& result) {
   if (result.verdict != Verdict::kSuspect || result.one_frequency) return "";
-  if (result.remainder_surface_share > kLawOfTravelAndRate)
+  if (result.remainder_surface_share > kMajority)
     return "A force of travel and travel rate would take " + percent(result.remainder_surface_share) +
            " of what it leaves: the law is not quite this one, or another acts beside it.";
   return "A force of travel and travel rate would take only " + percent(result.remainder_surface_share) +

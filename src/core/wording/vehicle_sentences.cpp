@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -25,13 +25,13 @@ std::string namesOf(const Diagnosis& strut) {
 std::string whyNotCoupled(const VehicleMistake& mistake, const std::vector<std::string>& struts) {
   using Kind = VehicleMistake::Kind;
   if (mistake.kind == Kind::kTooLittle)
-    return "are too short or too calm to tell how the struts move one another: drive on, or on a rougher road";
+    return "are too short or too calm to tell how the struts move one another: drive on, or use a rougher road";
   if (mistake.kind == Kind::kAlike)
     return "cannot tell " + struts[mistake.struts.first] + " from " + struts[mistake.struts.second] +
            ": their wheels move alike. Drive over bumps on one side";
   if (mistake.kind == Kind::kNone)
     return "are too calm for these sensors to tell how the struts move one another, and show no mistake in the vehicle "
-           "file: drive on, or on a rougher road";
+           "file: drive on, or use a rougher road";
   return "do not fit the vehicle file: " + describe(mistake, struts);
 }
 

@@ -7,6 +7,8 @@
 #include <complex>
 #include <vector>
 
+#include "suspension_health_monitor/internal/blocks/tuning.h"
+
 namespace suspension_health_monitor {
 
 /// Blocks of Fourier modulating functions, and what is assumed of the strut before any data. Every other number of the
@@ -19,21 +21,11 @@ struct BlockOptions {
   double delay_stddev = 0.005;  ///< prior of the clocks' difference [s]
 };
 
-/// Share of the body's power from which a delay or a gain is that of a sensor: a law with memory, and whatever is
-/// missing, looks like one, but leaves more unexplained: 4 % and more on measured and simulated records.
-inline constexpr double kNearlyAll = 0.97;
-/// Difference of both sensors' gains that is one. Links and the wheel's turning make up to 2 % on recorded multibody
-/// vehicles, a law with memory up to 9 % on measured records, with a standard deviation of 2 %.
-inline constexpr double kLeastGain = 0.05;
-/// Delay between two clocks that is one [s]: twice what the phase of links and rubber looks like.
-inline constexpr double kLeastDelay = 0.0025;
-
 /// The bins of a block that the estimator uses: k = first .. last, w_k = 2 pi k / T. The Hann window mixes each bin
 /// with its neighbours, so that spectra hold bins first - 1 .. last + 1.
 struct BlockBand {
   static constexpr int kFirst = 2;  ///< below, an offset and a drift of the sensors leak in through the Hann window
   static constexpr int kLast = 40;  ///< 20 times the first: from half the bounce to beyond the wheel's hop
-  static constexpr double kUsable = 0.35;  ///< of the rate: anti-alias filters of both IMUs differ beyond
 
   double length = 0.0;  ///< T [s]
   int first = kFirst, last = kLast;
@@ -41,7 +33,7 @@ struct BlockBand {
   /// @param period  the longest sampling time of the streams [s]. Longer ones than T / 32 give no block.
   BlockBand(double block_length, double period)
       : length(block_length),
-        last(static_cast<int>(std::clamp(kUsable * block_length / period, 1.0 * kFirst, 1.0 * kLast))) {}
+        last(static_cast<int>(std::clamp(kBlockTuning.usable * block_length / period, 1.0 * kFirst, 1.0 * kLast))) {}
 
   int size() const { return last - first + 1; }
   int spectrumSize() const { return last - first + 3; }

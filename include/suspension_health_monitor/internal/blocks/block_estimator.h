@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -50,8 +51,6 @@ class DriveFit {
 /// where that is stale. Cost per block: some ten linearisations at most, after the start; no allocation.
 class BlockEstimator {
  public:
-  static constexpr double kNothing = 0.5;  ///< relative standard deviation
-
   BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options);
 
   /// @return the place of the next block, to be filled; the newest then is the one before.
@@ -99,8 +98,8 @@ class BlockEstimator {
   /// @return true if there are blocks enough for an estimate.
   bool hasBlocks() const { return count_ >= kBlockWindows.front(); }
 
-  /// @return true if the newest blocks alone say nothing of the strut: they do not know it to kNothing of itself.
-  bool newestSayNothing() const { return !(newest_worst_ < kNothing); }
+  /// @return true if the newest blocks alone say nothing of the strut: they know it to no more than kMajority.
+  bool newestSayNothing() const { return !(newest_worst_ < kMajority); }
 
   /// Goes on with this estimate, as of blocks of another length.
   void begin(const BlockVector& theta, const BlockPrior& slow);

@@ -21,8 +21,6 @@ namespace suspension_health_monitor {
 /// Weighted least squares / MFT algorithms for linear differential system identification, 1993).
 class FourierIntegrals {
  public:
-  /// Of a block: a gap costs as much of its information, and the rule across it is noise that is measured.
-  static constexpr double kLongestSpacing = 1.0 / 32.0;
   static constexpr int kHalves = 8;  ///< that are kept: a stream may run four blocks ahead of another
 
   /// @param channels  values per reading.

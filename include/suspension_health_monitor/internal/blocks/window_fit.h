@@ -8,17 +8,14 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
 
 namespace suspension_health_monitor {
 
-/// Damping ratio below which a damper is as good as none [-]; that of a healthy strut is 0.2 to 0.5.
-inline constexpr double kLeastDamping = 0.1;
-
-/// Of r and of 1 - r: at 0 and 1 the instruments know no noise of one sensor.
-inline constexpr double kLeastShare = 0.02;
-
-/// @return b1 [1/s], at least that of kLeastDamping.
-inline double leastDamping(double b1, double b0) { return std::max(b1, 2.0 * kLeastDamping * std::sqrt(b0)); }
+/// @return b1 [1/s], at least that of kBlockTuning.least_damping.
+inline double leastDamping(double b1, double b0) {
+  return std::max(b1, 2.0 * kBlockTuning.least_damping * std::sqrt(b0));
+}
 
 /// A value of each band of the noise, without the heap.
 using BandVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, NoiseBands::kMost, 1>;
@@ -43,8 +40,8 @@ struct WindowEstimate {
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   BandVector noise;        ///< power of e per bin of each band: the unexplained spectrum
 
-  /// @param i  b1 or b0. A damping below kLeastDamping is known as well as that one is: a strut without a damper is
-  /// one, too.
+  /// @param i  b1 or b0. A damping below kBlockTuning.least_damping is known as well as that one is: a strut without a
+  /// damper is one, too.
   double relativeStddev(int i) const {
     return std::sqrt(covariance(i, i)) / (i == kBlockDamping ? leastDamping(theta[0], theta[1]) : theta[i]);
   }

@@ -29,9 +29,6 @@ std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& se
 /// says so (FailureView::kNone).
 std::vector<FailureRegion> findFailures(const ResidualViews& views, const LinearStrut& strut, double noise_floor);
 
-/// Samples that the mean of a bin is taken of.
-inline constexpr std::size_t kFewestInBin = 8;
-
 /// @return the range of nearly all values: single extremes would stretch an axis.
 std::pair<double, double> coveredRange(std::vector<double> values);
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
-#include "suspension_health_monitor/internal/statistics.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {

@@ -5,7 +5,7 @@
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -30,12 +30,11 @@ struct HealthOptions : HealthThresholds {
 /// - Payload moves both parameters, damage one (splitChange()).
 /// - What all dampers of a vehicle share is their temperature: below the error threshold a damper is judged by what it
 ///   has beyond it.
-/// - A level needs the size and the significance, and must last for the confirm time (LevelConfirmation), of one
-/// estimate
-///   to the next at least. It ends when the change is below the threshold by the hysteresis, or a standard deviation if
+/// - A level needs the size and the significance in two estimates in a row and for the confirm time
+///   (LevelConfirmation). It ends when the change is below the threshold by the hysteresis, or a standard deviation if
 ///   that is more, or has lost half of the significance. A change that the error threshold could not prove is kStale,
-///   "cannot tell", as is an estimate that is not valid; never "healthy". A sensor that is at fault makes an error a
-///   warning: who knows.
+///   "cannot tell", as is an estimate that is not valid; never "healthy". While a sensor is at fault the level is WARN
+///   at most.
 /// - Early warning: EarlyWarning over the changes of windows that share no reading.
 /// Cost per update: O(1), no allocation.
 class HealthAssessment {
@@ -71,8 +70,8 @@ class HealthAssessment {
 
  private:
   static constexpr double kHeavy = 4.0;  // StrutEstimate::tails: 2 as Laplace's, twice that
-  static constexpr double kOutlyingOften = 0.4, kOutlyingMemory = 50.0;  // calls of watch(): ten memories of LS
-  static constexpr double kLoadCertain = 2.0, kLoadShare = 0.5;          // standard deviations; of a change that warns
+  static constexpr double kOutlyingOften = 0.4;
+  static constexpr double kOutlyingMemory = 50.0;
 
   /// What is followed of damping or of stiffness.
   struct Parameter {

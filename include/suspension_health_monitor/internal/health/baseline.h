@@ -5,13 +5,17 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/health/health_rules.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
 /// @return the strut as it is estimated at `stamp`, as healthy: after a service.
 Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp);
+
+/// @return the healthy strut by nominal values; empty parts: not given.
+Baseline nominalOf(const HealthThresholds& options);
 
 /// What the present strut has changed by, wherever it drives.
 struct ChangeFromBaseline {

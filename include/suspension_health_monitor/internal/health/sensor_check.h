@@ -2,25 +2,25 @@
 
 #include <array>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
-inline constexpr double kMuchLarger = 3.0;  ///< rms of the body over that of the wheel: they may be swapped
-
 /// Tells faults of a sensor from those of the strut, by what a strut cannot do:
 /// - a vehicle does not climb for good: where one mean reading is gravity (REP 145: +9.81 at rest on the up axis) and
-///   the other is 1, that one is in g. What else a mean tells of one IMU MountClaim judges;
-/// - a strut passes slow motion as it is: of both sensors' gains the blocks know the difference;
+///   the other is 1, that one is in g. MountClaim judges the mean of each IMU alone;
+/// - a strut passes slow motion as it is: the block estimate contains the ratio of the gains of both sensors;
 /// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
 ///   a body that shakes three times as much as the wheel may be the wheel;
 /// - a spring lets no wheel move without the body;
 /// - a model that explains less than half of a signal that is motion, not noise (its steps from sample to sample are
 ///   smaller than white noise would have them), was given readings that do not belong together.
-/// Each verdict must have lasted for the memory; one on how they move falls with the first valid estimate.
-/// Cost per sample: O(1), no allocation.
+/// A verdict must last for the memory; a stuck sensor is reported at once. kNegativeDamping and kUnrelated are
+/// withdrawn as soon as the block estimate is valid. Samples of the grid come here, after the gate of each stream
+/// (StreamGate). Cost per sample: O(1), no allocation.
 class SensorCheck {
  public:
   /// @param memory  in samples, above 0.
@@ -31,8 +31,8 @@ class SensorCheck {
   void add(const CornerSample& sample);
 
   /// @param estimate  of the blocks: a valid one is that of a strut.
-  /// @param la  at the newest sample.
-  /// @param la_tells  it rests on enough rows of the present motion to tell what the sensors do.
+  /// @param la  at the newest sample: its rows follow a fault at once, and single wrong readings do not move it.
+  /// @param la_tells  LA has enough rows, and is not held, so that it may accuse a sensor.
   const SensorReport& judge(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells);
 
   const SensorReport& report() const { return report_; }
@@ -45,23 +45,24 @@ class SensorCheck {
   struct Reading {
     Reading(double forgetting_factor, double band_gain) : limited(forgetting_factor), gain(band_gain) {}
     LimitedMean limited;
-    double gain, smooth = 0.0,
-                 band = 0.0;  // of the low-pass that leaves the strut's band; its output, and the variance
-    double last = 0.0, variance = 0.0, step = 0.0;  // step: mean square from sample to sample
-    double still = 0.0;                             // samples without any change
+    double gain;            // of the low-pass that keeps the strut's band
+    double smooth = 0.0;    // its output [m/s^2]
+    double band = 0.0;      // variance of its output
+    double last = 0.0;      // reading [m/s^2]
+    double variance = 0.0;  // of the readings
+    double step = 0.0;      // mean square of the difference from sample to sample
+    double still = 0.0;     // samples without any change
     void add(double now, double quick);
     double mean() const { return limited.mean(); }
-    bool isMotion() const { return step < kWhiteShare * 2.0 * variance; }
+    bool isMotion() const { return step < variance; }  // that of white noise is twice that
     bool isOfStrut() const { return isMotion() && band > kBandShare * variance; }
   };
 
-  static constexpr double kQuick = 10.0;  // motion is forgotten so much sooner than the mean: else a stop takes long
-  static constexpr double kWhiteShare = 0.5;  // of 2 variance, the mean square step of white noise
-  static constexpr double kBandTimes = 10.0;  // the bounce: a wheel hops below that
+  static constexpr double kQuick = 10.0;      // variances have a tenth of the memory, so that a stop shows quickly
+  static constexpr double kBandTimes = 10.0;  // corner of the low-pass over the bounce: the wheel's hop is below it
   static constexpr double kBandShare = 0.4;   // of the variance: the low-pass leaves half at the end of the band
-  static constexpr double kStill = 0.5;       // of the memory
 
-  bool isStill(const Reading& reading) const { return reading.still >= kStill * memory_; }
+  bool isStill(const Reading& reading) const { return 2.0 * reading.still >= memory_; }
   SensorFault find(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) const;
   bool isInG() const;
   static SensorFault judgeGains(const StrutEstimate& estimate);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "suspension_health_monitor/internal/signal/delay_line.h"
+#include "suspension_health_monitor/internal/math/delay_line.h"
 
 namespace suspension_health_monitor {
 

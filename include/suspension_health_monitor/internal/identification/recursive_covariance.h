@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 
@@ -21,8 +21,8 @@ class UdCovariance {
   /// @param size  p >= 1, number of parameters.
   explicit UdCovariance(int size);
 
-  /// P of other parameters: parameter i of the new ones is parameter sources[i] of `before`, or one that is fixed
-  /// still.
+  /// P of other parameters: parameter i of the new ones is parameter sources[i] of `before`, or is new and has the
+  /// variance 0 until release().
   UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources);
 
   int size() const { return static_cast<int>(diagonal_.size()); }
@@ -110,19 +110,20 @@ class BatchScatter {
     rows_ = std::min(rows_, 0);
   }
 
-  /// @return the factor of parameter i; all rows of a filter alike until there are enough batches.
+  /// @return the factor of parameter i; until three batches are complete as if all rows of a window were equal.
   double inflation(int i) const {
     if (correlated_rows_ == 0) return 1.0;
     const RunningMean& ratio = ratios_[static_cast<std::size_t>(i)];
     const double n = ratio.weight();
-    // A correlation that falls in a line is cut at the ends of a batch: a third of one of them is missing in g^2.
+    // Batches cut off a part of a correlation that falls linearly: g^2 lacks 1 / (3 kCorrelationsPerBatch) of it.
     const double kept = 1.0 - 1.0 / (3.0 * kCorrelationsPerBatch);
     return n < kFewestBatches ? correlated_rows_ + 1.0 : std::max(1.0, ratio.mean() / kept * n / (n - 2.0));
   }
 
  private:
   static constexpr int kCorrelationsPerBatch = 4;
-  static constexpr double kFewestBatches = 2.9, kBatches = 30.0;  // three; a mean of n squares varies by sqrt(2 / n)
+  static constexpr double kFewestBatches = 2.9;  // three, less rounding
+  static constexpr double kBatches = 30.0;       // the factor is then known to sqrt(2 / 30) = 26 %
 
   int correlated_rows_, batch_rows_;
   int rows_;  // of the batch; below 0: before the first one

@@ -7,7 +7,7 @@
 
 #include "suspension_health_monitor/internal/identification/recursive_covariance.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 
@@ -22,8 +22,8 @@ struct RecursiveOptions {
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
   InitialVariance initial_variance_rule = InitialVariance::kRelative;
   int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
-  /// Parameter whose column has an offset that drifts: the last two parameters take that out, its product with the
-  /// parameter by now and the step from row to row. None: there are no such two.
+  /// Parameter whose column has a drifting offset. The last two parameters are then the offset times that parameter, as
+  /// it is now, and its step per row. None: there are no such two.
   std::optional<int> drifting = std::nullopt;
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
@@ -36,7 +36,10 @@ struct ColumnOrigin {
   double start = 0.0;         ///< what a new one starts from [unit of the parameter]
 };
 
-/// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight.
+/// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight. Another
+/// estimator derives from it and has, as RecursiveLeastSquares in recursive.cpp,
+///     double update(const RegressionRow& row);      // saysNothing(), drift(), innovate(), releaseExcited(), correct()
+///     double parameterVariance(int i) const;        // varianceAt()
 class RecursiveEstimator {
  public:
   /// @param num_parameters  p >= 1.
@@ -86,15 +89,15 @@ class RecursiveEstimator {
   /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
   double innovate(const RegressionRow& row);
 
-  /// Gives parameters that this row is the first to excite their variance, to be called before correct().
+  /// Gives each parameter whose regressor is not 0 for the first time its start variance; before correct().
   /// @param residual_variance  what turns P_ii into the variance of theta_i.
-  /// @param unit  of the estimator's P, against that of LS.
+  /// @param unit  factor from the P of LS to that of this estimator: 1, of LA mean |epsilon|.
   void releaseExcited(const RegressionRow& row, double residual_variance, double unit) {
     if (num_released_ < numParameters()) release(row.regressor, residual_variance, unit);
   }
 
   /// theta <- theta + gain epsilon.
-  /// @param weight  w: as many rows of an LS problem.
+  /// @param weight  w: the row counts as w rows do in LS.
   void correct(const RegressionRow& row, double innovation, double weight);
 
   /// @return variance of theta_i; infinite as long as no residual has shown any noise.

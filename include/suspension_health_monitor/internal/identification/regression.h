@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 
 namespace suspension_health_monitor {
@@ -48,7 +48,7 @@ class SuspensionRegression {
   explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
                                 SensorColumns sensors = SensorColumns::kNone, int effect_derivative = 2);
 
-  /// Takes in the next sample of a uninterrupted uniform series (only the accelerations are used).
+  /// Takes in the next sample of an uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
   /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills.
   const RegressionRow* push(const CornerSample& sample, const double* effect_forces = nullptr);

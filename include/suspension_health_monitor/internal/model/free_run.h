@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/math/delay_line.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
-#include "suspension_health_monitor/internal/signal/delay_line.h"
 
 namespace suspension_health_monitor {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/strut_identifier.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -21,7 +21,7 @@ namespace suspension_health_monitor {
 /// measurement: with the block estimate, or LA's where there is none, as with `preset: paper`.
 ///
 /// Rows of the plain model are those of the newest sample. The columns of effects need travel and travel rate, which
-/// the free run tells FreeRun::kDelay samples late; so does a model with effects give its rows.
+/// the free run gives FreeRun::kDelay samples late: the rows of a model with effects are as late.
 /// Cost per sample: O(1) whatever the horizon; no allocation.
 class ModelTracker {
  public:
@@ -53,7 +53,7 @@ class ModelTracker {
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param time  of the newest sample since the start of the drive [s]; of no effect on the plain model.
   /// @param compared  the sample FreeRun::kDelay before the newest; nullptr: the series is too short yet.
-  /// @return true if it brought a new block estimate, as the forces of effects do.
+  /// @return true if it brought a new block estimate (only with effects: their forces complete blocks here).
   bool add(const CornerSample& newest, double time, const CornerSample* compared, ModelReport& report);
 
   /// Of a model with effects, as long as it has no valid estimate of its own: sets b1, b0 of the free run, with the
@@ -65,7 +65,8 @@ class ModelTracker {
   /// Another drive begins, perhaps of another vehicle: nothing is held any more.
   void startNewDrive(ModelReport& report);
 
-  /// @param input  from now on LS and LA are not valid while samples come at another period than that of the options.
+  /// @param input  from now on nothing is valid while a sensor reads in another unit, and LS and LA are not while
+  /// samples come at another period than that of the options.
   /// @param now  that the age of the estimate counts to.
   void setInput(const InputStatus& input, Stamp now, ModelReport& report);
 
@@ -75,7 +76,7 @@ class ModelTracker {
   /// @return true while what is measured tells nothing of the strut, and LS and LA stay as they are.
   bool holds() const { return identifier_.holds(); }
 
-  /// @return what blocks say, judged as overTheDrive() is.  @param model_stddev  as takeEstimate().
+  /// @return the block estimate with its doubt.  @param model_stddev  as takeEstimate().
   StrutEstimate judged(const std::optional<TopEstimate>& blocks, const Eigen::Vector2d& model_stddev) const;
 
   /// @return the estimate over all readings so far, as VehicleBlocks::overTheDrive(); with NaN: too little is known.
@@ -107,13 +108,13 @@ class ModelTracker {
   std::optional<Newest> newest_;
   StrutIdentifier identifier_;
   Stamp now_{};
-  bool period_fits_ = true, unit_fits_ = true;
+  EstimateFacts of_input_;  // what concerns no estimator
   FreeRun free_run_;
   std::vector<double> starts_;  // of the coefficients
   bool is_given_ = false;       // b1 and b0 came with the effects
   bool has_own_model_ = false;  // the free run has had estimated parameters, or those that belong to the start values
   std::uint64_t runaways_ = 0;
-  std::uint64_t samples_ = 0, compared_ = 0;  // for what is made only now and then
+  std::uint64_t samples_ = 0, compared_ = 0;  // the model, and rmse and fit, are renewed every 8th
   RunningComparison comparison_;
   bool free_run_fails_ = false;
 };

@@ -3,9 +3,9 @@
 #include <boost/circular_buffer.hpp>
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/monitor_report.h"

@@ -1,21 +1,22 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
 /// The paper's estimation, row by row: integral filter and regression rows (9), (28)-(30), then LS (15)-(17) and LA
-/// (24)-(26) of them side by side: they have the same columns, b1, b0, those of the effects, those of the sensors, and
-/// forget by the same factor, and LS tells whether LA is lost. Cost per sample: O(1) whatever the horizon; no
+/// (24)-(26) side by side, with the same columns: b1, b0, one per effect, then those of the sensors' offset. They
+/// forget by the same factor, and LS shows whether LA is lost. Cost per sample: O(1) whatever the horizon; no
 /// allocation.
 class StrutIdentifier {
  public:
@@ -23,24 +24,24 @@ class StrutIdentifier {
   explicit StrutIdentifier(const MonitorSettings& options);
 
   /// Goes on with other effects: one column for each beside b1 and b0. Allocates.
-  /// @param effects  where their coefficients come from; numbers before the change count from the first effect.
+  /// @param effects  where their coefficients come from; ColumnOrigin::before counts from the first effect.
   void changeEffects(const std::vector<ColumnOrigin>& effects);
 
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param effect_forces  f_j at this sample, one per effect.
   void add(const CornerSample& sample, const double* effect_forces);
 
-  /// No row comes of the newest sample.
+  /// The newest sample gives no row: the free run has no travel yet.
   void skip() { has_row_ = false; }
 
   /// While rows tell nothing of the strut, as of a parked vehicle, the estimates stay as they are.
   void hold(bool holds) { holds_ = holds && !forgets_unexcited_; }
 
   /// Writes what is known now, all but the doubt.
-  void describe(StrutEstimate& ls, StrutEstimate& la) const;
+  void write(StrutEstimate& ls, StrutEstimate& la) const;
 
-  /// @param estimate  as described, of either estimator.
-  EstimateFacts facts(const StrutEstimate& estimate) const;
+  /// @param estimate  as written, of either estimator.  @param of_input  what is known of the input.
+  EstimateFacts facts(const StrutEstimate& estimate, const EstimateFacts& of_input) const;
 
   bool hasRow() const { return has_row_; }  ///< of the newest sample
   bool holds() const { return holds_; }
@@ -48,7 +49,7 @@ class StrutIdentifier {
   /// A gap, or another drive: the filter fills anew.
   void startNewSeries();
 
-  /// The estimates begin anew with the next row to be worth something, since the model has changed.
+  /// Estimates are not valid until enough rows of the new model have come.
   void restartValidity() { rows_ = 0.0; }
 
   /// From the next row on; the estimates stay.
@@ -68,13 +69,20 @@ class StrutIdentifier {
   int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }  // all but the sensors'
   void update(const RegressionRow& row);
 
+  /// Calls act(estimator) with each.
+  template <class Act>
+  void forEach(const Act& act) {
+    for (RecursiveEstimator* each : std::initializer_list<RecursiveEstimator*>{&least_squares_, &least_absolute_})
+      act(*each);
+  }
+
   IntegralFilterOptions filter_;
   SensorColumns sensors_;
   bool forgets_unexcited_;  // true: rows of a parked vehicle count, too
   SuspensionRegression regression_;
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;
-  double lost_memories_ = 0.0;  // that LS has explained far more than LA for
+  double lost_memories_ = 0.0;  // for which LS's mean residual has been below half of LA's
   SilentRows silent_rows_;
   bool has_row_ = false;
   bool holds_ = false;

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/monitor/model_tracker.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/sample_series.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
 
 namespace suspension_health_monitor {
 
@@ -49,10 +49,10 @@ class SuspensionMonitor {
   /// Takes the block estimate of the plain model from elsewhere.  @param model_stddev  as ModelTracker::takeEstimate().
   void takeEstimate(const TopEstimate& estimate, const Eigen::Vector2d& model_stddev);
 
-  /// Takes in the temperature of the strut's damper [deg C], which counts for health/oldest_data.
+  /// Takes in the temperature of the strut's damper [deg C], which is used until it is older than health/oldest_data.
   void addTemperature(Stamp stamp, double celsius);
 
-  /// As HealthAssessment has them.
+  /// As HealthAssessment::setOthers(), dampingChange().
   void setOthers(const std::optional<LogChange>& others) { health_.setOthers(others); }
   const std::optional<LogChange>& dampingChange() const { return health_.dampingChange(); }
 
@@ -69,8 +69,8 @@ class SuspensionMonitor {
   /// Takes in the next sample. A gap or a clock that goes back empties the filter (no rows follow until it is full);
   /// estimates hold meanwhile, marked as not valid.
   /// @return the report, owned by this object and valid until the next call; nullptr if the sample was rejected, and,
-  ///         with effects in the model, for the first FreeRun::kDelay samples of a series and after setEffects(): so
-  ///         late are its reports, and no stamp comes twice.
+  ///         with effects in the model, for the first FreeRun::kDelay samples of a series and after setEffects(): its
+  ///         reports are so late, and no stamp is reported twice.
   const MonitorReport* addGridSample(const CornerSample& sample);
 
   /// Judges health by this from now on.

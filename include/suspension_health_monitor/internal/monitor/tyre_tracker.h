@@ -2,12 +2,12 @@
 
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
-#include "suspension_health_monitor/internal/monitor_settings.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

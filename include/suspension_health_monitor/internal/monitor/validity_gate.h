@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
-/// Estimators that are so far apart at most, or kCertain standard deviations of both, say the same.
-inline constexpr double kMostApart = 0.05;  ///< of the second
-
-/// @return true if two estimators say the same of b1 and b0, by either measure.
+/// @return true if b1 and b0 of two estimators are within kLeastDifference, or kCertain standard deviations, of each
+/// other.
 bool agree(const StrutEstimate& a, const StrutEstimate& b);
 
 /// All that decides whether an estimate is valid. What does not concern an estimator stays as it is here.

@@ -5,10 +5,6 @@
 
 namespace suspension_health_monitor {
 
-/// A smaller share of what there was to explain is not worth another effect, nor, of what is left, a difference between
-/// two models.
-inline constexpr double kWorthHaving = 0.02;
-
 /// Kinds of a drive that would tell models apart, see separatingDrive().
 enum class DriveKind { kNoneHelps, kMoreTravel, kLessTravel, kSlower, kQuicker, kLonger, kAtRest };
 

@@ -8,7 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 
@@ -36,23 +37,16 @@ struct GridOptions {
 };
 
 /// Watches how well the pairing of readings with those of a reference does, by their stamps alone, so that a replay
-/// comes to the same judgement at the same reading. It does badly if, in kOutcomes pairs and lone readings of one
-/// stream and the reference,
-/// - the stamps of partners differ by more than kMostShare T on average, or
-/// - more than kMostShare of the readings find no partner (in a row of more than kLongestRow the rest is a silence of
-///   the other sensor and does not count),
-/// or if kInterruptions interruptions of the series of instants by less than kLongestLoss T come so close together that
-/// the integral filter, which needs `fill` samples in a row, would be full less than half of the time: on average
-/// fill / ln 2 samples apart, as for interruptions at random.
-/// Cost per reading: O(1), no allocation.
+/// comes to the same judgement at the same reading. It does badly if, in 200 pairs and lone readings of one stream and
+/// the reference (numbers: SignalTuning),
+/// - the stamps of partners differ by more than T / 10 on average, or
+/// - more than a tenth of the readings find no partner (in a row of more than 3 the rest is a silence of the other
+///   sensor and does not count),
+/// or if 5 interruptions of the series of instants by less than 4 T come so close together that the integral filter,
+/// which needs `fill` samples in a row, would be full less than half of the time: on average fill / ln 2 samples apart,
+/// as for interruptions at random. Cost per reading: O(1), no allocation.
 class AlignmentJudge {
  public:
-  static constexpr int kOutcomes = 200;
-  static constexpr double kMostShare = 0.1;
-  static constexpr int kLongestRow = 3;
-  static constexpr std::size_t kInterruptions = 5;
-  static constexpr int kLongestLoss = 4;
-
   /// @param period  T > 0.  @param fill  samples in a row that fill the integral filter.
   /// @param streams  how many there are, the reference included.
   AlignmentJudge(Stamp period, int fill, std::size_t streams) : period_(period), fill_(fill), outcomes_(streams) {}
@@ -82,9 +76,9 @@ class AlignmentJudge {
   Stamp period_;
   int fill_;
   Verdict verdict_ = Verdict::kDoesWell;
-  std::vector<Outcomes> outcomes_;                               // by stream
-  std::optional<Stamp> last_;                                    // instant
-  boost::circular_buffer<Stamp> interruptions_{kInterruptions};  // the newest
+  std::vector<Outcomes> outcomes_;                                            // by stream
+  std::optional<Stamp> last_;                                                 // instant
+  boost::circular_buffer<Stamp> interruptions_{kSignalTuning.interruptions};  // the newest
 };
 
 }  // namespace suspension_health_monitor

@@ -6,8 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/signal/delay_line.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/math/delay_line.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 
@@ -72,18 +73,14 @@ class BandlimitedInterpolator {
 /// delay by that exactly, at all frequencies. No FIR filter is exactly j 2 pi f H of another one; the taps are those of
 /// the least mean square of
 /// - H - 1 up to flat(), and H from stop() on,
-/// - T G - j 2 pi f T H at all frequencies, whose mean square counts kSameFilter times that of the others, since an
-///   error of G is one of the relation while an error of H is none,
+/// - T G - j 2 pi f T H at all frequencies, whose mean square counts ten times that of the others, since an error of G
+///   is one of the relation while an error of H is none,
 /// with H(0) = 1 and G'(0) = j 2 pi: a constant, gravity say, and the rate of a ramp pass exactly.
 /// Then |H - 1| < 1e-3 up to flat(), |H| < 1e-3 from stop() on, and |T G - j 2 pi f T H| < 1e-4 everywhere. Shorter
 /// filters could not do that: the width of the transition is what they need their length for. Cost per instant:
 /// O(signals / T), no allocation.
 class MotionFilter {
  public:
-  /// Bodies move on their struts below this, wheels shake them up to it [Hz]; slower sampling ends it sooner.
-  static constexpr double kBand = 15.0;
-  static constexpr double kSameFilter = 10.0;
-
   /// @param period  T > 0.
   /// @param filtered, differentiated  number of signals of either kind.
   MotionFilter(Stamp period, std::size_t filtered, std::size_t differentiated);

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 
 namespace suspension_health_monitor {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
-#include "suspension_health_monitor/internal/signal/delay_line.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/math/delay_line.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 

@@ -4,22 +4,21 @@
 #include <cmath>
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/signal/stream_clock.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 
 /// What the readings of one sensor are like, the newest thousand of them. Cost per reading: O(1), no allocation.
 class ReadingStatistics {
  public:
-  static constexpr int kStuck = 20;  ///< equal readings in a row; fewer occur where the resolution is coarse
-
   /// @param is_extreme  it equals the highest or the lowest reading so far, which a range may have cut off.
   void add(double reading, bool is_extreme);
 
-  /// @return how many of the last readings are of one value, without a break; as far as kStuck.
+  /// @return how many of the last readings are of one value, without a break; up to kSignalTuning.stuck.
   int equalInARow() const { return equal_in_a_row_; }
 
   double mean() const { return mean_.mean(); }
@@ -28,11 +27,9 @@ class ReadingStatistics {
   double repeated() const { return repeated_.mean(); }    ///< share of readings that equal the one before, in [0, 1]
 
   /// @return true if they are enough to tell what is usual.
-  bool areUsual() const { return std::min(mean_.weight(), repeated_.weight()) >= kFewestForUsual; }
+  bool areUsual() const { return std::min(mean_.weight(), repeated_.weight()) >= kSignalTuning.fewest_for_usual; }
 
  private:
-  static constexpr double kFewestForUsual = 100.0;
-
   std::optional<double> last_;
   int equal_in_a_row_ = 0;
   double finest_step_ = 0.0;                    // other than 0
@@ -42,13 +39,13 @@ class ReadingStatistics {
 
 /// The upper or the lower end of what one sensor has read: do its readings stop there because its range does?
 ///
-/// Signs of a range that ends: flat tops, kFlatTop equal readings in a row or more, at the very extreme; and more
-/// readings at the extreme than within a narrow band below it. Of a signal that turns by itself the band holds more,
-/// however coarsely it is quantised: a parabola stays in the kBandSteps steps of resolution below its top
-/// sqrt(1 + kBandSteps) - 1 times as long as in the top one. Far from the mean one flat top is enough; near it, where
-/// heavy clipping has its limit, kAgain are, since a sensor may be stuck anywhere. One flat top that lasts is no limit
-/// but a sensor that is stuck. A sensor that repeats its readings must show tops that are flat for it.
-/// Cost per reading: O(1), no allocation.
+/// Signs of a range that ends: flat tops, kSignalTuning.flat_top equal readings in a row or more, at the very extreme;
+/// and more readings at the extreme than within a narrow band below it. Of a signal that turns by itself the band holds
+/// more, however coarsely it is quantised: a parabola stays in the kBandSteps steps of resolution below its top sqrt(1
+/// + band_steps) - 1 times as long as in the top one. Far from the mean one flat top is enough; near it, where heavy
+/// clipping has its limit, kSignalTuning.flat_tops are, since a sensor may be stuck anywhere. One flat top that lasts
+/// is no limit but a sensor that is stuck. A sensor that repeats its readings must show tops that are longer than its
+/// usual repetitions. Cost per reading: O(1), no allocation.
 class RangeEnd {
  public:
   /// @param sign  1: the upper end, -1: the lower one.
@@ -65,16 +62,13 @@ class RangeEnd {
   const std::optional<double>& limit() const { return limit_; }
 
  private:
-  static constexpr int kFlatTop = 3;
-  static constexpr int kAgain = 5;
-
   void count(double reading, double band);
   void countFlatTops(double reading, const ReadingStatistics& all);
 
   double sign_;
   std::optional<double> extreme_, limit_;
   double at_ = 0.0, near_ = 0.0;  // readings at the extreme; within the band below
-  int flat_tops_ = 0;             // counts up to kAgain
+  int flat_tops_ = 0;             // counts up to kSignalTuning.flat_tops
   bool in_flat_top_ = false;
 };
 
@@ -88,23 +82,20 @@ class RangeEnd {
 class UsualSize {
  public:
   /// @param period  from one reading to the next, above 0 [s].
-  explicit UsualSize(double period) : slowest_step_(period / kFoldTime) {}
+  explicit UsualSize(double period) : slowest_step_(period / kSignalTuning.fold_time) {}
 
   /// @param size  of the next reading, finite and not negative.
   void add(double size) {
-    readings_ = std::min(readings_ + 1.0, kStart / slowest_step_);
+    readings_ = std::min(readings_ + 1.0, kSignalTuning.first_step / slowest_step_);
     if (median_ == 0.0) median_ = size;
-    const double factor = std::exp(kStart / readings_);
+    const double factor = std::exp(kSignalTuning.first_step / readings_);
     median_ = std::clamp(size > median_ ? median_ * factor : median_ / factor, kSmallest, kLargest);
   }
 
-  /// @return the median; none as long as there are fewer than kFewest readings.
-  double median() const { return readings_ >= kFewest ? median_ : 0.0; }
+  /// @return the median; none as long as there are fewer than kSignalTuning.fewest_for_size readings.
+  double median() const { return readings_ >= kSignalTuning.fewest_for_size ? median_ : 0.0; }
 
  private:
-  static constexpr double kFoldTime = 13.0;  // [s] to e times the size, at the fastest: ten times in half a minute
-  static constexpr double kStart = 5.0;      // steps 5, 5/2, 5/3, ..: a first reading of 1e12 is left after 200 more
-  static constexpr double kFewest = 10.0;
   static constexpr double kSmallest = 1e-100, kLargest = 1e100;  // its logarithm stays a number
 
   double slowest_step_;
@@ -141,9 +132,9 @@ class StreamGate {
   /// Forgets the last stamp: the next reading may have any.
   void startNewSeries();
 
-  /// @return true if the last ReadingStatistics::kStuck readings were all the same: a sensor that is stuck, or a
+  /// @return true if the last kSignalTuning.stuck readings were all the same: a sensor that is stuck, or a
   /// vehicle at rest and a sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
-  bool isStill() const { return statistics_.equalInARow() == ReadingStatistics::kStuck; }
+  bool isStill() const { return statistics_.equalInARow() == kSignalTuning.stuck; }
 
   /// @return the mean distance of the newest thousand readings from their mean [m/s^2].
   double deviation() const { return statistics_.deviation(); }
@@ -158,8 +149,6 @@ class StreamGate {
   Stamp taken() const { return taken_; }
 
  private:
-  static constexpr int kBelievedAgain = 10;  // readings: what stands between absurd ones is as wrong as they are
-
   std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
   bool isAbsurd(double acceleration);
   bool isClipped(double acceleration);
@@ -168,10 +157,10 @@ class StreamGate {
   Stamp longest_overtaking_;
   bool is_force_;
   std::optional<Stamp> last_;
-  int believed_ = kBelievedAgain;      // readings in a row that are not absurd, up to kBelievedAgain
-  UsualSize usual_size_;               // |acceleration|, of all that are numbers
-  ReadingStatistics statistics_;       // of all readings that passed, the clipped ones included
-  RangeEnd upper_{1.0}, lower_{-1.0};  // likewise
+  int believed_ = kSignalTuning.believed_again;  // readings in a row that are not absurd, up to that
+  UsualSize usual_size_;                         // |acceleration|, of all that are numbers
+  ReadingStatistics statistics_;                 // of all readings that passed, the clipped ones included
+  RangeEnd upper_{1.0}, lower_{-1.0};            // likewise
   RejectCounts rejected_;
   StreamClock clock_;
   Stamp taken_{};

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
 #include "suspension_health_monitor/internal/signal/grids.h"
@@ -40,16 +40,14 @@ class StreamGrid {
   /// @return when the newest reading was taken (StreamClock); empty if it was kept out.
   const std::optional<Stamp>& taken() const { return taken_; }
 
-  /// @return true if the streams are resampled; why() tells the reason in words, if it was found out.
+  /// @return true if the streams are resampled, and why, if it was found out.
   bool resamples() const { return resamples_; }
-  std::string why() const;
+  AlignmentJudge::Verdict verdict() const { return paired_.verdict(); }
 
-  /// @return that readings of a required stream come every 3/2 T or more, in words: instants are then missing though
-  /// nothing gets lost, as sample_period is too short for it. Empty if they come often enough.
-  std::string whatIsTooSlow() const;
-
-  /// @return "paired", "resampled", or "resampled because ...".
-  std::string describeAlignment() const;
+  /// @return the longest period of a required stream [s]. From 3/2 T on instants are missing though nothing gets lost:
+  /// sample_period is too short.
+  double longestPeriod() const;
+  double period() const { return toSeconds(period_); }  ///< T [s]
 
   const StreamGate& gate(std::size_t stream) const { return streams_[stream].gate; }
 

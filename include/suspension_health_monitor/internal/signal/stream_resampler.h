@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 
@@ -42,7 +43,6 @@ class SmoothingSpline {
 
  private:
   static constexpr int kOpen = 5;
-  static constexpr double kPenalty = 4e-6;  // lambda: 0.1 % of what a reading weighs, for the fastest motion
 
   static std::size_t place(std::int64_t k) { return static_cast<std::size_t>(k & (kKept - 1)); }
   void begin(std::int64_t first);
@@ -76,13 +76,11 @@ class SmoothingSpline {
 /// from 1.2. What folds, folds onto frequencies above 0.8, and noise stays nearly white, by which later judges tell it.
 /// A constant passes exactly.
 ///
-/// A pause of up to kLongestBridge periods (the grid's or the stream's own, whichever is longer) is bridged.
-/// Cost: O(1) per reading and per value, no allocation.
+/// A pause of up to kSignalTuning.longest_bridge periods (the grid's or the stream's own, whichever is longer) is
+/// bridged. Cost: O(1) per reading and per value, no allocation.
 class StreamResampler {
  public:
-  static constexpr int kHalfWidth = 8;           ///< [T]; so late is a value
-  static constexpr double kLongestBridge = 4.5;  ///< three lost readings in a row, and jitter
-  static constexpr double kSlowest = 10.0;       ///< [T]; the period of a stream counts as no longer for that
+  static constexpr int kHalfWidth = 8;  ///< [T]; so late is a value
 
   /// @param period  T of the grid > 0.
   explicit StreamResampler(Stamp period);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 
 namespace suspension_health_monitor {
 

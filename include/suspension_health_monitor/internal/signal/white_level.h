@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 

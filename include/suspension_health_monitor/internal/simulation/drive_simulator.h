@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_motion.h"
@@ -47,7 +47,7 @@ class DriveSimulator {
   Accelerometer road_;
   BodySway sway_;
   SwaySensor sway_sensor_;
-  SensorFaults faults_;
+  SimulatedFaults faults_;
   VehicleMotion now_, delayed_;  // delayed: as the body's IMU sees it, faults_.delay ago
 };
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/simulation/road.h"
 #include "suspension_health_monitor/internal/simulation/vehicle.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 #include "suspension_health_monitor/strut_model.h"
@@ -103,7 +103,7 @@ class SwaySensor {
 };
 
 /// What is wrong with the body's IMU.
-struct SensorFaults {
+struct SimulatedFaults {
   double delay = 0.0;                ///< it reads what was so long ago [s]
   double bias = 0.0;                 ///< [m/s^2]
   double gain_error = 0.0;           ///< [-]
@@ -112,7 +112,7 @@ struct SensorFaults {
 
   /// @param hidden  faults by the catalogue's names; names and sizes are all that is taken from there.
   /// @throws std::invalid_argument  naming one that the simulator does not know, and those that it does.
-  static SensorFaults from(const std::vector<ActiveMeasurementEffect>& hidden);
+  static SimulatedFaults from(const std::vector<ActiveMeasurementEffect>& hidden);
 
   /// @param acceleration  z'' of the strut's top [m/s^2], `delay` ago.
   /// @return what an otherwise ideal sensor reads on its z axis, without gravity [m/s^2].

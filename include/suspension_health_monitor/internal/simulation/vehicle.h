@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {

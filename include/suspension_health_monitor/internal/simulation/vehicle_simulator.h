@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 #include "suspension_health_monitor/internal/simulation/road.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"

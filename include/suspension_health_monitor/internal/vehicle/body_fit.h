@@ -39,9 +39,6 @@ struct BodyInertiaResult {
 /// By strut x ahead and y to the left of the strut's top, from any one point of the body [m].
 using StrutPlaces = std::vector<std::array<double, 2>>;
 
-/// Share of wheelbase or track: struts that are no farther apart along an axis stand side by side.
-inline constexpr double kSideBySide = 0.1;
-
 struct BodyFitResult;
 
 /// @param fit  of the rows of all struts; nothing: not known.  @param places  by strut; empty: not known.
@@ -149,6 +146,7 @@ class BodyFit {
                                 const Eigen::VectorXd& start) const;
   std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars) const;
   bool hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const;
+  bool isVehicle(const Eigen::VectorXd& inertia) const;
   bool isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
                const std::vector<BodyRows>& halves) const;
   /// @return M/Iyy, M/Ixx, their common term, x and y of the centre of gravity.

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
-#include "suspension_health_monitor/internal/identification/running_means.h"
+#include "suspension_health_monitor/internal/math/delay_line.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
-#include "suspension_health_monitor/internal/signal/delay_line.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 #include "suspension_health_monitor/strut_model.h"

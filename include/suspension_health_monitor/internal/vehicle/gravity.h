@@ -5,13 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "suspension_health_monitor/internal/corner_sample.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 
 namespace suspension_health_monitor {
-
-/// Lean of a road of 9 %, steeper ones are rare, of the load or of a careful hand [rad]. An IMU that leans by less
-/// reads so little of the gravity that pitch and roll turn that b0 is wrong by 2 %.
-inline constexpr double kUsualLean = 5.0 / 180.0 * M_PI;
 
 /// @return the angle between two directions [rad].
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);

@@ -13,9 +13,6 @@
 
 namespace suspension_health_monitor {
 
-/// What a gyro's noise is over that of an accelerometer until both have been heard [s/m]: 0.002 rad/s, 0.03 m/s^2.
-inline constexpr double kUsualGyroNoise = 0.002 / 0.03;
-
 /// @return the noise of a vehicle each of whose struts has two accelerometers of its own, all alike.
 SensorNoise noiseOfOwnSensors(std::size_t num_struts);
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/sliding_friction.h"
-#include "suspension_health_monitor/internal/corner_sample.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"

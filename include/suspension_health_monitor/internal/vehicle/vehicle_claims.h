@@ -39,9 +39,10 @@ struct VehicleMistake {
   double stddev = 0.0;       ///< of size
   double unexplained = 0.0;  ///< share of the tops' motion that the file as it stands leaves [-]
 
-  /// @return true: what is estimated of any strut with this file is wrong. A delay that is no longer small against
-  /// what links do to phases is among what is estimated, and what no mistake explains is an error of the model
-  /// (BodyFit).
+  bool isDelay() const;
+
+  /// @return true: what is estimated of any strut with this file is wrong. A delay is among what is estimated, and what
+  /// no mistake explains is an error of the model (BodyFit).
   bool isContradiction() const;
 };
 
@@ -68,6 +69,10 @@ class VehicleClaims {
   /// @pre work() has returned true.
   const VehicleMistake& found() const { return found_; }
 
+  /// @return by strut the relative change of b1 and b0 that a delay makes which explains more, but is too small for a
+  /// clock: links and rubber turn phases so. Nobody knows b1 and b0 better than that.
+  const Eigen::ArrayXXd& byLinks() const { return by_links_; }
+
   /// Does all portions.
   const VehicleMistake& find() {
     while (!work()) continue;
@@ -75,8 +80,6 @@ class VehicleClaims {
   }
 
  private:
-  static constexpr int kFewestBlocks = 8;
-
   /// Streams of all struts as they would be without a mistake, from those that were measured.
   struct Mapping {
     Eigen::MatrixXd wheels, tops;
@@ -122,7 +125,8 @@ class VehicleClaims {
   std::size_t next_ = 0;  // bin, then hypothesis
   Rows filed_{1.0, {}};   // of what goes with the wheels, by the file
   double noise_ = 0.0;    // share of the tops' motion that does not go with the wheels
-  double least_ = 0.0;    // that a hypothesis leaves
+  Eigen::ArrayXXd by_links_;
+  double least_ = 0.0;  // that a hypothesis leaves
   int blocks_ = 0;
   VehicleMistake found_;
 };

@@ -8,6 +8,7 @@
 
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
@@ -36,7 +37,7 @@ class VehicleGrid {
 
   /// Takes in one message of a sensor.
   /// @param sensor  its place in VehicleStreams::sensors.  @param values  of its streams.
-  /// @return true if the grid has begun to resample: the newest AlignmentJudge::kOutcomes samples were badly paired,
+  /// @return true if the grid has begun to resample: the newest kSignalTuning.outcomes samples were badly paired,
   /// and a record is better without them.
   bool push(std::size_t sensor, Stamp stamp, const double* values);
   bool push(std::size_t sensor, Stamp stamp, const std::vector<double>& values) {

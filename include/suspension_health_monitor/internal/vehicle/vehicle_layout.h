@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 

@@ -10,7 +10,6 @@
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/health/health_rules.h"
-#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {
@@ -31,9 +30,6 @@ std::string describeSilent(const std::vector<std::string>& topics);
 /// others went on.  @param before  what was said until then.
 std::string describeNoReading(double seconds, const std::vector<std::string>& silent, const std::string& before);
 
-/// @return why readings are resampled; empty if pairing does well.
-std::string describe(AlignmentJudge::Verdict verdict);
-
 /// @return how a strut is, e.g. "damping 18 % below nominal (beyond doubt), stiffness at nominal".
 /// @param healthy  what the change is from.
 std::string describe(const StrutChange& change, const Baseline& healthy);
@@ -51,9 +47,6 @@ struct StrutOfDrive {
 /// @return the strut by instrumental variables over the whole drive, else, where that is not valid or not the strut at
 /// the end, by LA, else by LS at the end of the drive; nothing: none is valid.
 std::optional<StrutOfDrive> strutOf(const IdentifyResult& found);
-
-/// @return the nominal values among the options.
-Baseline nominalOf(const MonitorOptions& options);
 
 /// @param options  whose payload_range counts.
 /// @return how a strut is against the healthy one, in a sentence; empty where no healthy one is known.

@@ -24,6 +24,13 @@ std::string describeRejected(const RejectCounts& rejected);
 /// @param grid  of a strut alone, whose streams are numbered by Side; nullptr: it is not.
 std::string describeSuspicions(const MonitorReport& report, const StreamGrid* grid);
 
+/// @return why instants are missing though nothing gets lost: readings of a required stream come every 3/2 T or more.
+/// Empty if they come often enough.
+std::string describeSlowReadings(const StreamGrid& grid);
+
+/// @return "paired", "resampled", or "resampled because ...".
+std::string describeAlignment(const StreamGrid& grid);
+
 /// @param where  there are too few readings: "on one of the topics".
 /// @return why `count` readings tell no sample period.
 std::string describeNoPeriod(const std::string& where, std::size_t count);

@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <deque>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "separator.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
-#include "suspension_health_monitor/internal/text.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {

@@ -1,17 +1,17 @@
-#include "suspension_health_monitor/internal/monitor_settings.h"
+#include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 constexpr double kDefaultHorizon = 0.6;          // [s], the paper's
 constexpr double kFewestSamplesOfMemory = 10.0;  // lambda = 0.9
-constexpr double kRounding = 1e-12;              // of 1 - T / memory
 
 }  // namespace
 

@@ -1,6 +1,5 @@
-#include "suspension_health_monitor/internal/monitor/health_log.h"
+#include "suspension_health_monitor/internal/wording/health_log.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

@@ -84,6 +84,7 @@ class VehicleMonitor {
 
   /// @return what fitBody() found last against the vehicle file; of one strut there is nothing.
   const VehicleMistake& mistake() const { return mistake_; }
+  Eigen::ArrayXXd by_links_;  // VehicleClaims::byLinks()
 
   /// @return the estimate over all readings so far, as SuspensionMonitor::overTheDrive(). Not for the sample path.
   StrutEstimate overTheDrive(std::size_t strut);

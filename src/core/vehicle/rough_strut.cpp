@@ -1,11 +1,12 @@
-#include "suspension_health_monitor/internal/fit/rough_strut.h"
+#include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -41,7 +42,7 @@ RoughStrut::RoughStrut(const WindowEstimate& estimate, double lag) {
 }
 
 bool RoughStrut::clocksDiffer(double period) const {
-  return std::abs(clock_offset) > std::max({kLeastDelay, period / 2.0, kCertain * clock_offset_stddev});
+  return std::abs(clock_offset) > std::max({kBlockTuning.least_delay, period / 2.0, kCertain * clock_offset_stddev});
 }
 
 int RoughStrut::horizonSamples(double period) const {
@@ -54,7 +55,7 @@ std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double pe
   for (const auto& [blocks, lag] : kTrials) {
     const auto found = find(drives, period, blocks * length, lag * length);
     if (found && (!best || found->explained > best->explained)) best = found;
-    if (best && best->explained > kLeastExplained) break;
+    if (best && best->explained > kMajority) break;
   }
   return best;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -11,12 +12,34 @@ constexpr double square(double x) { return x * x; }
 /// Chance of naming something without cause, before it is divided by the number of tests.
 inline constexpr double kFalseAlarm = 0.001;
 
-/// Standard deviations of what is certain of one vehicle, by chance once in a thousand, and of one drive of many, by
-/// chance once in 16 000.
-inline constexpr double kProven = 3.0, kCertain = 4.0;
+/// Standard deviations of what is likely, by chance once in 22; of what is certain of one vehicle, by chance once in a
+/// thousand; and of one drive of many, by chance once in 16 000.
+inline constexpr double kLikely = 2.0, kProven = 3.0, kCertain = 4.0;
 
-/// Share of the measured signal that a model has to explain to be that of the strut.
-inline constexpr double kLeastExplained = 0.5;
+/// The greater part of a quantity: of the signal that a model explains, of an error that a law takes, of a power.
+inline constexpr double kMajority = 0.5;
+
+/// Small against another quantity of its kind: of squares, which add up, a hundredth.
+inline constexpr double kSmall = 0.1;
+
+/// Smallest share of an error, or of what the struts do, that is worth a name.
+inline constexpr double kWorthHaving = 0.02;
+
+/// Relative difference of rounded numbers that would be equal.
+inline constexpr double kRounding = 1e-9;
+
+/// Relative step of numerical derivatives: between rounding and curvature.
+inline constexpr double kDifferenceStep = 1e-6;
+
+/// Times as large: clearly larger, by no choice of the data; and much larger, by no tolerance of a sensor or a law.
+inline constexpr double kClearlyMore = 2.0, kMuchMore = 3.0;
+
+/// Fewest values that tell their own scatter: to a quarter.
+inline constexpr std::size_t kFewestForScatter = 8;
+
+/// Relative difference of b1, of b0 or of the gains of two sensors that counts. Links and the wheel's turning make up
+/// to 2 % on recorded multibody vehicles.
+inline constexpr double kLeastDifference = 0.05;
 
 /// Relative standard deviation from which a number is not known: twice that would be the change that is an error.
 inline constexpr double kMostRelativeStddev = 0.15;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/option_table.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 

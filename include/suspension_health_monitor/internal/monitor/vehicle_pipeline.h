@@ -6,25 +6,13 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
-
-/// @param names  of the struts.  @param forces  names of the known forces.
-/// @return what is known of a vehicle at the end of recorded drives. Looks for the body anew.
-VehicleIdentification identified(VehicleMonitor& monitor, const std::vector<std::string>& names,
-                                 const std::vector<std::string>& forces);
-
-/// @return what in the vehicle file is likely wrong, if a strut has no valid estimate now; else empty.
-std::string describeMistake(const VehicleMonitor& monitor, const std::vector<std::string>& names);
-
-/// @return how the struts move one another, as it is known now.
-VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std::string>& names,
-                           const std::vector<std::string>& forces);
 
 /// From the readings of a vehicle's sensors to reports by strut, the one way for a live robot, a bag, arrays and tests;
 /// one strut is a vehicle with one strut:

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 #include "suspension_health_monitor/vehicle.h"
 

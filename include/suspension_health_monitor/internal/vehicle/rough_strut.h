@@ -33,9 +33,4 @@ struct RoughStrut {
 std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double period,
                                      double length = BlockOptions().length);
 
-/// @return true if b1 > 0 and b0 > 0; not for NaN.
-inline bool isDampedSpring(const StrutModel& model) {
-  return model.damping_to_mass > 0.0 && model.stiffness_to_mass > 0.0;
-}
-
 }  // namespace suspension_health_monitor

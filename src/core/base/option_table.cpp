@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/option_table.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 
 #include <algorithm>
 #include <boost/lexical_cast/try_lexical_convert.hpp>
@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "suspension_health_monitor/internal/setting_groups.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,20 +1,20 @@
-#include "suspension_health_monitor/internal/vehicle/vehicle_monitor.h"
+#include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
-#include "suspension_health_monitor/internal/text.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kModelsEvery = 0.1;  // [s]
 // Half of the blocks are new then, of those that there are or that are kept.
-constexpr Stamp kBodyFirst = std::chrono::seconds(5), kBodyEvery = std::chrono::seconds(30);
+constexpr Stamp kBodyFirst = std::chrono::seconds(5);
+constexpr Stamp kBodyEvery = std::chrono::seconds(30);
 
 }  // namespace
 
@@ -120,7 +120,7 @@ void VehicleMonitor::addGridSample(const VehicleSample& sample) {
   const VehicleSample* own = &sample;
   if (!is_alone_) {
     if (!decoupler_) return;
-    const std::int64_t every = std::max(1L, std::lround(kModelsEvery / toSeconds(period_)));
+    const std::int64_t every = std::max(1L, std::lround(kVehicleTuning.models_every / toSeconds(period_)));
     if (samples_++ % every == 0) takeModels();
     own = decoupler_->push(sample);
     if (own == nullptr) return;
@@ -178,6 +178,7 @@ void VehicleMonitor::fitBody() {
 
 void VehicleMonitor::fitRows() {
   mistake_ = claims_->found();
+  by_links_ = claims_->byLinks();
   claims_.reset();
   BodyRows rows;
   if (!blocks_->rows(rows)) return;
@@ -205,7 +206,8 @@ Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {
   if (!body_) return Eigen::Vector2d::Zero();
   const Eigen::Matrix2d absolute = body_->absoluteCovariance(estimate.strut, estimate.theta.head<2>(),
                                                              Eigen::Matrix2d::Zero(), estimate.frictionDamping());
-  return absolute.diagonal().cwiseSqrt();
+  const Eigen::Array2d by_links = by_links_.row(static_cast<Eigen::Index>(estimate.strut)).transpose();
+  return (absolute.diagonal().array() + (by_links * estimate.theta.head<2>().array()).square()).sqrt();
 }
 
 StrutEstimate VehicleMonitor::overTheDrive(std::size_t strut) {

@@ -4,18 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
-#include "suspension_health_monitor/internal/option_table.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {
 
-/// What presets differ in beside options: how rows are made, and how the estimators begin, weigh and forget.
+/// What a preset sets and no option can: how rows are made, and how the estimators begin, weigh and forget.
 struct EstimatorOptions {
   IntegrationRule rule = IntegrationRule::kBandLimited;
   SensorColumns sensors = SensorColumns::kDriftingOffset;  ///< what of the sensors is estimated with the strut
@@ -114,6 +114,10 @@ inline constexpr OptionField<MonitorOptions> kMonitorFields[] = {
      1e-9, 1e9},
     {"health", "nominal/stiffness_to_mass", "1/s^2", "b0 of the healthy strut",
      &MonitorOptions::nominal_stiffness_to_mass, 1e-9, 1e12},
+    {"health", "nominal/friction", "m/s^2", "dry friction of the healthy strut, which b1 does not contain",
+     &MonitorOptions::nominal_friction, -1e6, 1e6},
+    {"health", "nominal/friction_gain", "s/m", "1 m/s^2 of friction acted as so much of b1 where b1 is from",
+     &MonitorOptions::nominal_friction_gain, 0.0, 1e9},
     {"health", "health/damping_warn", "-", "relative change of damping from which the level is WARN",
      &MonitorOptions::damping_warn, 0.001, 10.0},
     {"health", "health/damping_error", "-", "relative change of damping from which the level is ERROR",

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/periodogram.h"
+#include "suspension_health_monitor/internal/math/periodogram.h"
 
 #include <cmath>
 

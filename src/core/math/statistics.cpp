@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 #include <boost/math/distributions/normal.hpp>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "suspension_health_monitor/internal/statistics.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -41,10 +41,9 @@ class RunningMeans {
 /// The mean of one quantity.
 using RunningMean = RunningMeans<1>;
 
-/// A mean with exponential forgetting that no few values move far, however large they are: each counts by its distance
-/// from the mean, at most kProven of the usual one. A wrong value of any size so moves the mean by what kProven
-/// deviations would, and wrong values without a break widen what is usual by a factor of e in 1 / (kProven - 1) of the
-/// memory.
+/// A mean with exponential forgetting that no few values move far, however large they are: a value
+/// counts as at most kProven mean deviations from the mean, however far off it is. Wrong values without a break widen
+/// what is usual by a factor of e in 1 / (kProven - 1) of the memory.
 class LimitedMean {
  public:
   /// @param forgetting_factor  lambda in (0, 1].
