@@ -8,6 +8,7 @@
 #include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/math/digest.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
@@ -78,6 +79,8 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
   recorded.printInput();
   printCoupling(found.vehicle.coupling, vehicle.names);
   if (found.body) printBody(*found.body);
+  const std::string mistake = describeMistake(*recorded.pipeline().monitor(), vehicle.names);
+  if (!mistake.empty()) std::printf("warning: %s\n", mistake.c_str());
   if (vehicle.only) {
     std::printf("\n");
     printTable(table);
@@ -91,7 +94,8 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
       printTyre("LA", tyre->report().la, report.la);
     }
     printChange(found.changes[i]);
-    for (const std::string& warning : found.vehicle.struts[i].warnings) std::printf("warning: %s\n", warning.c_str());
+    for (const std::string& warning : found.vehicle.struts[i].warnings)
+      if (warning != mistake) std::printf("warning: %s\n", warning.c_str());
   }
 }
 
