@@ -7,6 +7,7 @@
 #include "results.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"

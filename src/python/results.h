@@ -8,7 +8,6 @@
 
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/math/digest.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/health_log.h"

@@ -85,7 +85,7 @@ void dropNominalOfIncompleteModels(VehicleOptions& options) {
     const std::string& name = options.layout.struts[i].name;
     prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
       if (!LiveModel(strut.shell, options.model_of[i]).isComplete())
-        damping = stiffness = strut.monitor.nominal_friction = std::nullopt;
+        damping = stiffness = strut.monitor.nominal_friction = strut.monitor.nominal_friction_gain = std::nullopt;
     });
   }
 }

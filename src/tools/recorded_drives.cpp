@@ -11,6 +11,7 @@
 #include "command.h"
 #include "strut_files.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"

@@ -7,7 +7,6 @@
 #include "bag_options.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
-#include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"

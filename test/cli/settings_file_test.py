@@ -235,3 +235,40 @@ def test_a_long_drive_is_not_called_too_short(program, bag):
     result = program("identify", bag, "--sprung-topic", "/unsprung/imu", "--unsprung-topic", "/sprung/imu")
     assert result.returncode == 4 and "not the two sides of one strut" in result.stderr
     assert "enough" not in result.stderr
+
+
+def seconds_of(told, level):
+    return float(re.search(rf"^{level} +([\d.]+)", told, re.MULTILINE)[1])
+
+
+def test_a_digressive_damper_is_no_fault_on_another_road(program, tmp_path):
+    """What acts as friction on the road that b1 is from is part of the healthy strut; without it the same drive is an error."""
+    def drive(road):
+        path = tmp_path / f"{road}.bag"
+        program.succeed("simulate", "--scenario", "iso_road", "--vehicle", "golden_car", "--rate", "200", "--duration", "150",
+                        "--set", f"iso_class={road}", "--set", "speed=15", "--set", "hidden=digressive_damping=8,v0=0.1", "-o", path)
+        return path
+
+    config, without = tmp_path / "strut.yaml", tmp_path / "without.yaml"
+    program.succeed("identify", drive("C"), "-o", config)
+    nominal = yaml.safe_load(config.read_text())["nominal"]
+    assert nominal["friction"] > 0.1 and nominal["friction_gain"] > 1.0
+    without.write_text("".join(line for line in config.read_text().splitlines(True) if "friction" not in line))
+    smoother = drive("B")
+    told = program.succeed("health", smoother, "--config", config)
+    assert seconds_of(told, "WARN") == seconds_of(told, "ERROR") == 0.0
+    assert seconds_of(program.succeed("health", smoother, "--config", without), "ERROR") > 50.0
+
+
+NOMINAL = ["--set", f"nominal/damping_to_mass={B1}", "--set", f"nominal/stiffness_to_mass={B0}", "--set", "nominal/friction=0.1"]
+
+
+def test_friction_and_its_gain_come_together(program, bag, tmp_path):
+    program.refuse(2, ["health", bag, *NOMINAL], ["nominal/friction and nominal/friction_gain must be given together"], tmp_path)
+
+
+def test_nominal_values_of_an_incomplete_model_go_with_their_friction(program, bag, tmp_path):
+    model = tmp_path / "model.yaml"
+    model.write_text(f"damping_to_mass: {B1}\nstiffness_to_mass: {B0}\ncomplete: false\n")
+    told = program.succeed("health", bag, "--set", f"model_file={model}", *NOMINAL, "--set", "nominal/friction_gain=3")
+    assert "judged by nominal" not in told

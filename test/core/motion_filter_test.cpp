@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/signal/filters.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {

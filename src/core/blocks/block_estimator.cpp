@@ -34,7 +34,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   first_.mean.setZero(p);
   first_.stddev.setConstant(p, HUGE_VAL);
   first_.stddev[kBlockDelay] = delayStddev();
-  first_.stddev[kBlockGain] = kRounding;
+  first_.stddev[kBlockGain] = kBlockTuning.held;
   first_.mean[kBlockWheelShare] = kBlockTuning.share_mean;
   first_.stddev[kBlockWheelShare] = kBlockTuning.share_stddev;
   if (columns.neighbours > 0) {
@@ -42,7 +42,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
     // wrong by it counts where tracks are much alike. So instruments are those of the wheels as measured.
     first_.mean[kBlockWheelShare] = kBlockTuning.least_share;
     first_.stddev[kBlockWheelShare] = kBlockTuning.least_share / 2.0;
-    first_.stddev[kBlockDelay] = kRounding;
+    first_.stddev[kBlockDelay] = kBlockTuning.held;
   }
   slow_ = scaled_ = first_;
   factor_.setOnes(p);
@@ -147,7 +147,7 @@ bool BlockEstimator::start() {
   if (is_alone) return false;
   waits_ = kBlockTuning.slow_every - 1;
   double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
-  stddev = stddev == kRounding ? delayStddev() : kRounding;
+  stddev = stddev == kBlockTuning.held ? delayStddev() : kBlockTuning.held;
   return false;
 }
 
@@ -180,10 +180,10 @@ void BlockEstimator::lookAtSensors() {
   const bool is_known = fit(count_, first_, trial_);
   const double gain = trial_.theta[kBlockGain];
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
-    first_.stddev[kBlockDelay] = kRounding;
+    first_.stddev[kBlockDelay] = kBlockTuning.held;
   if (!is_known || trial_.explained < kBlockTuning.nearly_all ||
       std::abs(gain) < kLeastDifference + kCertain * std::sqrt(trial_.covariance(kBlockGain, kBlockGain)))
-    first_.stddev[kBlockGain] = kRounding;
+    first_.stddev[kBlockGain] = kBlockTuning.held;
 }
 
 void BlockEstimator::forgetSlow() {
@@ -305,9 +305,10 @@ bool BlockEstimator::leavesUnusual(int blocks) {
 bool BlockEstimator::isStale(const StrutBlock& block) const {
   const auto moved = [&](int i) { return std::abs(best_.theta[i] - block.at[i]); };
   const BlockBand& band = equations_.band();
-  return moved(kBlockDamping) > kWorthHaving * block.at[kBlockDamping] ||
-         moved(kBlockStiffness) > kWorthHaving * block.at[kBlockStiffness] ||
-         moved(kBlockDelay) * band.omega(band.last) > kSmall || moved(kBlockWheelShare) > kBlockTuning.stale_share;
+  return moved(kBlockDamping) > kBlockTuning.stale * block.at[kBlockDamping] ||
+         moved(kBlockStiffness) > kBlockTuning.stale * block.at[kBlockStiffness] ||
+         moved(kBlockDelay) * band.omega(band.last) > kBlockTuning.stale_phase ||
+         moved(kBlockWheelShare) > kBlockTuning.stale_share;
 }
 
 void BlockEstimator::refine(int window, const BlockPrior& prior) {

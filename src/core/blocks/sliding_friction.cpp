@@ -6,8 +6,6 @@
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 
 namespace suspension_health_monitor {
-namespace {}  // namespace
-
 double SlidingFriction::push(double time, double wheel) {
   const double spacing = time_ ? time - *time_ : 0.0;
   time_ = time;

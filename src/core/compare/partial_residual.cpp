@@ -9,8 +9,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::size_t kBins = 28;
-constexpr std::size_t kColumns = 18;
-constexpr std::size_t kRows = 14;
+constexpr std::size_t kColumns = 18, kRows = 14;
 constexpr std::size_t kFewestInCell = 3;
 constexpr std::size_t kProbes = 200;
 

@@ -13,8 +13,7 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr double kFewestLags = 20.0;
-inline constexpr double kMostLags = 500.0;
+inline constexpr double kFewestLags = 20.0, kMostLags = 500.0;
 inline constexpr double kLagsOutside = 0.05;                         // of the lags, by chance
 inline const double kHalfBand = normalQuantile(0.5 * kLagsOutside);  // half the band's width, in standard deviations
 inline const double kUnlikely = normalQuantile(0.01);                // of the number of lags outside

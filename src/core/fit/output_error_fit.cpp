@@ -23,7 +23,7 @@ std::optional<std::vector<double>> coefficientScales(const StrutModel& start, co
   std::vector<double> scales;
   for (const double force : sizes.forces) {
     if (force == 0.0) return std::nullopt;
-    scales.push_back(kSmall * sizes.reading.y / force);
+    scales.push_back(kSmall * sizes.reading.y / force);  // a coefficient of 1 makes a tenth of the acceleration
   }
   for (const ActiveMeasurementEffect& reading : start.reading) {
     bool shows = false;

@@ -4,6 +4,7 @@
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -192,10 +192,8 @@ void ModelTracker::takeModel(const ModelReport& report) {
   const bool by_blocks = !is_paper_ && isModel(report.estimate);
   const StrutEstimate& estimate = by_blocks ? report.estimate : report.la;
   // Until the blocks know the strut LA leads, which needs no more than its own rows for that, unless it was given.
-  const bool leads = !by_blocks && (is_paper_ ? isModel(report.la)
-                                              : !newest_ && !is_given_ &&
-                                                    doubtOf(identifier_.facts(report.la, {})) == EstimateDoubt::kNone);
-  if (!by_blocks && !leads) return;
+  const auto leads = [&] { return doubtOf(identifier_.facts(report.la, {})) == EstimateDoubt::kNone; };
+  if (!by_blocks && !(is_paper_ ? isModel(report.la) : !newest_ && !is_given_ && leads())) return;
   if (!free_run_.trySetModel(estimate.damping_to_mass, estimate.stiffness_to_mass)) return;
   has_own_model_ = true;
   for (std::size_t j = 0; j < estimate.num_effects; ++j) free_run_.setCoefficient(j, estimate.coefficients[j]);

@@ -47,9 +47,7 @@ MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions
 
 void MonitorSettings::validate() const {
   suspension_health_monitor::validate<MonitorOptions>(*this, kMonitorFields);
-  HealthOptions thresholds;
-  static_cast<HealthThresholds&>(thresholds) = *this;
-  thresholds.validate();
+  health().validate();
   if (!sample_period) return;
   filter(*sample_period);
   if (forgettingFactor(*sample_period) < 1.0 - 1.0 / kFewestSamplesOfMemory - kRounding)

@@ -7,7 +7,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kSpacings = 50.0;  // before their mean counts: jitter of half a period shifts it by a hundredth
+constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
+constexpr double kSpacings = 50.0;         // before their mean counts: jitter of half a period shifts it by a hundredth
 
 }  // namespace
 
@@ -40,7 +41,7 @@ std::optional<Continuity> SampleSeries::add(const CornerSample& sample) {
 
 void SampleSeries::judge() {
   if (spacing_.weight() < kSpacings) return;
-  status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= kWorthHaving;
+  status_.period_fits = std::abs(status_.mean_period / toSeconds(period_) - 1.0) <= kPeriodTolerance;
 }
 
 const CornerSample* SampleSeries::delayed() const { return recent_.full() ? &recent_.front() : nullptr; }

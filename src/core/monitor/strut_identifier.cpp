@@ -10,7 +10,8 @@ namespace suspension_health_monitor {
 namespace {
 
 // Normally LA's mean |residual| is the smaller one. After wrong readings LS's may be, for a few memories; if for
-// longer, LA is lost and begins again from LS.
+// longer, LA is lost: one absurd reading may send it further than its covariance lets it come back from. It then begins
+// again from LS.
 constexpr double kMostLost = 10.0;  // memories
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
+
 namespace suspension_health_monitor {
 namespace {
 

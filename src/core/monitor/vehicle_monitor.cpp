@@ -13,8 +13,7 @@ namespace suspension_health_monitor {
 namespace {
 
 // Half of the blocks are new then, of those that there are or that are kept.
-constexpr Stamp kBodyFirst = std::chrono::seconds(5);
-constexpr Stamp kBodyEvery = std::chrono::seconds(30);
+constexpr Stamp kBodyFirst = std::chrono::seconds(5), kBodyEvery = std::chrono::seconds(30);
 
 }  // namespace
 

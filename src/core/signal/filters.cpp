@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {

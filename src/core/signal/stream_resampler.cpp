@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "suspension_health_monitor/internal/signal/tuning.h"
+
 namespace suspension_health_monitor {
 
 void SmoothingSpline::begin(std::int64_t first) {

@@ -98,8 +98,8 @@ class BlockEstimator {
   /// @return true if there are blocks enough for an estimate.
   bool hasBlocks() const { return count_ >= kBlockWindows.front(); }
 
-  /// @return true if the newest blocks alone say nothing of the strut: they know it to no more than kMajority.
-  bool newestSayNothing() const { return !(newest_worst_ < kMajority); }
+  /// @return true if the newest blocks alone say nothing of the strut: they do not know it.
+  bool newestSayNothing() const { return !(newest_worst_ < kBlockTuning.says_nothing); }
 
   /// Goes on with this estimate, as of blocks of another length.
   void begin(const BlockVector& theta, const BlockPrior& slow);

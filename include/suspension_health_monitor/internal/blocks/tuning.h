@@ -28,7 +28,11 @@ struct BlockTuning {
   double most_amplified = 20.0;
   double unusual = 1.5;  ///< power that a fit leaves of a block, over the usual: that of its 39 bins varies by a sixth
   double lost = 0.3;     ///< relative standard deviation from which there is no estimate to linearise at
-  double stale_share = 0.2;  ///< change of r since the linearisation
+  double says_nothing = 0.5;  ///< relative standard deviation of blocks that say nothing of the strut
+  double held = 1e-9;        ///< standard deviation of a delay [s] or gain that is held at none, also without any noise
+  double stale = 0.02;       ///< relative change of b1 or b0 since the linearisation
+  double stale_phase = 0.1;  ///< likewise of the phase that the delay makes in the last bin [rad]
+  double stale_share = 0.2;  ///< likewise of r
   int slow_every = 4;  ///< blocks, between fits of what changes slowly: all blocks then have changed by a sixteenth
   double slow_factor = 1.5;     ///< by which the standard deviations of what changes slowly grow for fewer blocks
   int start_blocks = 8;         ///< that one reading has time to linearise

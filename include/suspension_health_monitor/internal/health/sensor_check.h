@@ -4,7 +4,6 @@
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/math/running_means.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {

@@ -8,7 +8,6 @@
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/math/delay_line.h"
-#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 

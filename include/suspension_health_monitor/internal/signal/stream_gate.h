@@ -39,13 +39,13 @@ class ReadingStatistics {
 
 /// The upper or the lower end of what one sensor has read: do its readings stop there because its range does?
 ///
-/// Signs of a range that ends: flat tops, kSignalTuning.flat_top equal readings in a row or more, at the very extreme;
-/// and more readings at the extreme than within a narrow band below it. Of a signal that turns by itself the band holds
-/// more, however coarsely it is quantised: a parabola stays in the kBandSteps steps of resolution below its top sqrt(1
-/// + band_steps) - 1 times as long as in the top one. Far from the mean one flat top is enough; near it, where heavy
-/// clipping has its limit, kSignalTuning.flat_tops are, since a sensor may be stuck anywhere. One flat top that lasts
-/// is no limit but a sensor that is stuck. A sensor that repeats its readings must show tops that are longer than its
-/// usual repetitions. Cost per reading: O(1), no allocation.
+/// Signs of a range that ends (numbers: SignalTuning): flat tops, three equal readings in a row or more, at the very
+/// extreme; and more readings at the extreme than within a narrow band below it. Of a signal that turns by itself the
+/// band holds more, however coarsely it is quantised: a parabola stays in the n steps of resolution below its top
+/// sqrt(1 + n) - 1 times as long as in the top one. Far from the mean one flat top is enough; near it, where heavy
+/// clipping has its limit, five are, since a sensor may be stuck anywhere. One flat top that lasts is no limit but a
+/// sensor that is stuck. A sensor that repeats its readings must show tops that are longer than its usual repetitions.
+/// Cost per reading: O(1), no allocation.
 class RangeEnd {
  public:
   /// @param sign  1: the upper end, -1: the lower one.

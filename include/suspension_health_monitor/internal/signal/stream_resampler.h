@@ -7,7 +7,6 @@
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
-#include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
 

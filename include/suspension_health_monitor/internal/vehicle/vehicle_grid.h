@@ -8,7 +8,6 @@
 
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
-#include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
