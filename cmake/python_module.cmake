@@ -23,12 +23,12 @@ get_filename_component(python_repository ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 # add_python_part(PART DIRECTORY SOURCE...): the compiled part _PART, which lands in a folder of the build.
 function(add_python_part part directory)
   set(target suspension_health_monitor_python_${part})
-  pybind11_add_module(${target} ${ARGN})
+  pybind11_add_module(${target} NO_EXTRAS ${ARGN})  # link time optimisation costs more than it gives
   target_include_directories(${target} PRIVATE ${python_repository}/include)
   target_compile_options(${target} PRIVATE ${strict_warnings})
   target_compile_features(${target} PRIVATE cxx_std_17)
-  target_precompile_headers(${target} PRIVATE <pybind11/eigen.h> <pybind11/numpy.h> <pybind11/stl.h>)
-  set_target_properties(${target} PROPERTIES OUTPUT_NAME _${part} LIBRARY_OUTPUT_DIRECTORY ${directory})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME _${part} LIBRARY_OUTPUT_DIRECTORY ${directory}
+    UNITY_BUILD_BATCH_SIZE 2)  # with pybind11 more take above 1 GB
 endfunction()
 
 file(GLOB python_core_sources CONFIGURE_DEPENDS ${python_repository}/src/python/*.cpp)

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "model_file.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {

@@ -1,6 +1,6 @@
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <complex>
 #include <deque>
@@ -11,6 +11,7 @@
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/periodogram.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
 
@@ -52,7 +53,7 @@ struct Regression {
       const Eigen::MatrixXd weighted = weight.asDiagonal() * rows;
       Eigen::MatrixXd gram = rows.transpose() * weighted;
       gram.diagonal().array() += 1e-12 * gram.trace();  // for columns that are 0
-      solution = gram.ldlt().solve(weighted.transpose() * measured);
+      solution = solveSymmetric(gram, weighted.transpose() * measured);
       error = measured - rows * solution;
       if (deviation() == 0.0) return;
       const double outlier = kOutlierScale * deviation();

@@ -2,13 +2,14 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "parameterization.h"
 #include "segment_cost.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
@@ -54,12 +55,12 @@ std::vector<double> standardDeviations(const ceres::Problem& problem, const Para
     double* jacobians[2] = {shared.data(), local.data()};
     if (!cost->Evaluate(x.data(), residuals.data(), jacobians)) continue;
     const Eigen::MatrixXd cross = local.transpose() * shared;
-    information += shared.transpose() * shared - cross.transpose() * (local.transpose() * local).ldlt().solve(cross);
+    information += shared.transpose() * shared - cross.transpose() * solveSymmetric(local.transpose() * local, cross);
     square += residuals.squaredNorm();
     count += static_cast<double>(residuals.size());
   }
   const Eigen::MatrixXd covariance =
-      square / count * information.ldlt().solve(Eigen::MatrixXd::Identity(parameters.size(), parameters.size()));
+      square / count * solveSymmetric(information, Eigen::MatrixXd::Identity(parameters.size(), parameters.size()));
   const Eigen::VectorXd deviations =
       covariance.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseProduct(parameters.slopes(model).cwiseAbs());
   return {deviations.data(), deviations.data() + deviations.size()};

@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/search/effect_search.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "separating_drive.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
@@ -55,7 +55,7 @@ double shareOfTurning(const Records& records, const HoldOut& held_out, const Lin
       measured.push_back(segment->body[static_cast<std::size_t>(channel)]);
     const Eigen::VectorXd turning = joined(measured);
     if (turning.size() < count) continue;  // not measured in one of the drives
-    const Eigen::Vector3d told = (strut.transpose() * weighted).ldlt().solve(weighted.transpose() * turning);
+    const Eigen::Vector3d told = solveSymmetric(strut.transpose() * weighted, weighted.transpose() * turning);
     const double whole = judged.dot(turning.cwiseAbs2());
     if (whole > 0.0) most = std::max(most, 1.0 - judged.dot((turning - strut * told).cwiseAbs2()) / whole);
   }

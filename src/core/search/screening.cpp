@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
@@ -31,7 +32,7 @@ std::optional<WeightedProjection::Part> WeightedProjection::project(const Column
     if (!(independent(i, i) > kIndependent * square(i, i))) return std::nullopt;  // 0 and NaN, too
   Part part;
   const Eigen::VectorXd moment = weighted.transpose() * target_ - carried.transpose() * own_;
-  part.coefficients = independent.ldlt().solve(moment);
+  part.coefficients = solveSymmetric(independent, moment);
   part.gain = moment.dot(part.coefficients);
   part.common = gram_.solve(own_) - carried * part.coefficients;
   return part;

@@ -1,12 +1,12 @@
 #include "suspension_health_monitor/internal/simulation/vehicle.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
 
@@ -20,7 +20,7 @@ void requireHeld(const Vehicle& vehicle) {
   Eigen::MatrixXd pushes(vehicle.struts.size(), 3);
   for (std::size_t i = 0; i < vehicle.struts.size(); ++i)
     pushes.row(static_cast<Eigen::Index>(i)) << 1.0, vehicle.struts[i].x, vehicle.struts[i].y;
-  if (pushes.colPivHouseholderQr().rank() < motionsOf(vehicle))
+  if (rankOf(pushes) < motionsOf(vehicle))
     throw std::invalid_argument(
         "the struts do not hold the body, must be three that are not in a line, or all on one axis through the centre "
         "of gravity, at least two");

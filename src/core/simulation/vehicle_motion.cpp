@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/simulation/vehicle_motion.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -80,7 +80,7 @@ VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
     state[kWheels + i] = road.height;
     state[kWheels + n + i] = road.rate;
   }
-  const Eigen::Matrix<double, 3, 2> plane = lift.completeOrthogonalDecomposition().solve(wheels);
+  const Eigen::MatrixXd plane = pseudoInverse(lift) * wheels;
   for (Eigen::Index i = 0; i < 3; ++i) {
     state[static_cast<std::size_t>(i)] = plane(i, 0);
     state[kBodyRates + static_cast<std::size_t>(i)] = plane(i, 1);

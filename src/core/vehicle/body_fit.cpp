@@ -1,13 +1,12 @@
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "rigid_body_rows.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
@@ -53,7 +52,7 @@ BodyFit::BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs)
   Eigen::MatrixXd q(n, 3);
   q << Eigen::VectorXd::Ones(n), x, y;
   sees_pitch_ = scale_[0] > kVehicleTuning.smallest_spread;
-  sees_roll_ = scale_[1] > kVehicleTuning.smallest_spread && q.colPivHouseholderQr().rank() == (sees_pitch_ ? 3 : 2);
+  sees_roll_ = scale_[1] > kVehicleTuning.smallest_spread && rankOf(q) == (sees_pitch_ ? 3 : 2);
   q_.resize(n, 1 + (sees_pitch_ ? 1 : 0) + (sees_roll_ ? 1 : 0));
   q_.col(0).setOnes();
   if (sees_pitch_) q_.col(1) = x;
@@ -85,8 +84,7 @@ std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitRes
   solution.chi2 = distance.squaredNorm() / functor.degreesOfFreedom();
   Eigen::MatrixXd jacobian(functor.values(), functor.inputs());
   functor.df(solution.parameters, jacobian);
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(jacobian);
-  const Eigen::MatrixXd inverse = decomposition.pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudoInverse(jacobian);
   solution.covariance = inverse * inverse.transpose();
   if (!std::isfinite(solution.chi2)) return std::nullopt;
   return solution;
@@ -248,7 +246,7 @@ Eigen::VectorXd BodyFit::inertia(const Eigen::MatrixXd& s) const {
   const Eigen::MatrixXd j =
       lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) * lengths.cwiseInverse().asDiagonal();
   const Eigen::VectorXd first = lengths.cwiseInverse().asDiagonal() * s.col(0).tail(m);
-  const Eigen::VectorXd centre = -j.ldlt().solve(first);
+  const Eigen::VectorXd centre = -solveSymmetric(j, first);
   const double share = 1.0 - centre.dot(j * centre);  // 1/M over S_00
   Eigen::VectorXd numbers(5);                         // M/Iyy, M/Ixx, product, x, y
   numbers.setZero();

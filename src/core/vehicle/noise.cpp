@@ -1,4 +1,4 @@
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -6,6 +6,7 @@
 #include <random>
 
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
@@ -183,7 +184,7 @@ Weights weightsOf(std::size_t strut, std::size_t num_struts, const Covariances& 
       moments(a, b) = covariance(of_a, others[static_cast<std::size_t>(b / lags)], b % lags - a % lags);
   }
   moments.diagonal().array() += kVehicleTuning.model_variance;
-  const Eigen::VectorXd solution = moments.llt().solve(target);
+  const Eigen::VectorXd solution = solveSymmetric(moments, target);
   return Eigen::Map<const Weights>(solution.data(), lags, static_cast<Eigen::Index>(others.size()));
 }
 

@@ -1,12 +1,12 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
@@ -83,8 +83,7 @@ VehicleClaims::Rows VehicleClaims::fit(const Mapping& mapping, const Eigen::Matr
   columns.block(regressors, 4 * n_, n_, 2 * n_) = mapping.tops;  // z'': p = 2
   const Eigen::MatrixXd products = columns * moments * columns.transpose();
   const Eigen::MatrixXd scores = products.topRightCorner(regressors, n_);
-  const Eigen::MatrixXd rows =
-      products.topLeftCorner(regressors, regressors).completeOrthogonalDecomposition().solve(scores);
+  const Eigen::MatrixXd rows = pseudoInverse(Eigen::MatrixXd(products.topLeftCorner(regressors, regressors))) * scores;
   const Eigen::ArrayXd total = products.diagonal().tail(n_).array();
   const Eigen::ArrayXd explained = (scores.array() * rows.array()).colwise().sum().transpose();
   Rows result{(total > 0.0).select(1.0 - explained / total, 1.0).mean(), Eigen::ArrayXXd(n_, 2)};
@@ -189,7 +188,7 @@ void VehicleClaims::takeBin(std::size_t bin) {
   causes.bottomRightCorner(forces_, forces_).setIdentity();
   const Eigen::MatrixXcd with_causes = all * causes;
   const Eigen::MatrixXcd with_them =
-      with_causes * (causes.adjoint() * with_causes).completeOrthogonalDecomposition().solve(with_causes.adjoint());
+      with_causes * pseudoInverse(Eigen::MatrixXcd(causes.adjoint() * with_causes)) * with_causes.adjoint();
   products_[bin] = (with_them - noiseShare() * all) / (1.0 - noiseShare());
   measured_ += all.real();
   in_step_ += products_[bin].real();

@@ -1,8 +1,8 @@
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 
@@ -64,9 +64,9 @@ bool VehicleClaims::hasDeadGyro() const {
     const auto wheel = columns.topLeftCorner(n_, count), top = columns.block(n_, 0, n_, count);
     const Eigen::MatrixXcd of_wheels = wheel * wheel.adjoint(), both = top * wheel.adjoint();
     wheels += of_wheels.real();
-    tops += (both * of_wheels.completeOrthogonalDecomposition().solve(both.adjoint())).real();  // that goes with them
+    tops += (both * pseudoInverse(of_wheels) * both.adjoint()).real();  // that goes with them
   }
-  const Eigen::MatrixXd motions = motionsOf(places_).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd motions = pseudoInverse(motionsOf(places_));
   const Eigen::ArrayXd passed = (motions * tops * motions.transpose()).diagonal().array() /
                                 (motions * wheels * motions.transpose()).diagonal().array();
   for (const std::size_t axis : {0u, 1u})
@@ -92,7 +92,7 @@ std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
 
 // Tops that the body's IMU tells of move with its heave, pitch and roll.
 void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
-  const Eigen::MatrixXd inverse = motionsOf(places_).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd inverse = pseudoInverse(motionsOf(places_));
   using Change = std::function<void(double size, StrutPlaces& places)>;
   const auto add = [&](Kind kind, std::size_t strut, const std::vector<double>& sizes, const Change& change) {
     all.push_back({kind, {strut, strut}, sizes, [places = places_, change, inverse, n = n_](double size, Mapping& m) {
