@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,10 @@ struct HealthThresholds {
   double payload_range = 0.35;                      ///< relative change of the body's mass that may be payload; 0: none
   double oldest_data = 60.0;                        ///< of which an estimate may be, as of a parked vehicle [s]
   double learn_time = 60.0;                         ///< of valid estimates for a baseline [s]; 0: none is learned
+
+  /// @return what b1 and b0 have to be known to, for a change as large as the error threshold to be seen well (half of
+  /// it), StrutEstimate::knownTo() [-].
+  double enough() const { return 0.5 * std::min(damping_error, stiffness_error); }
 };
 
 /// All settings of a StrutMonitor, flat as users write them. Unit, meaning and range of each are told by

@@ -94,6 +94,15 @@ struct StrutEstimate {
   /// Standard deviations of b1 [1/s] and b0 [1/s^2] as absolute values.
   double dampingAbsoluteStddev() const { return std::hypot(damping_to_mass_stddev, damping_model_stddev); }
   double stiffnessAbsoluteStddev() const { return std::hypot(stiffness_to_mass_stddev, stiffness_model_stddev); }
+  /// @return half the width of the interval that holds b1, and b0, 95 times of 100, over its size: the larger one [-].
+  double knownTo() const {
+    return 1.96 * std::fmax(damping_to_mass_stddev / damping_to_mass, stiffness_to_mass_stddev / stiffness_to_mass);
+  }
+  /// @return more driving on this road until knownTo() is that small [s]: standard deviations fall with the square root
+  /// of the time. 0: it is; NaN: nothing is known.
+  double secondsUntil(double known_to) const {
+    return window * std::fmax(0.0, std::pow(knownTo() / known_to, 2) - 1.0);
+  }
   /// Undamped natural frequency [Hz]; NaN unless b0 >= 0.
   double naturalFrequency() const { return std::sqrt(stiffness_to_mass) / (2 * M_PI); }
   /// Damping ratio b1 / (2 sqrt(b0)) [-]; NaN unless b0 > 0.
@@ -212,10 +221,15 @@ struct HealthReport {
   std::optional<double> payload_change;    ///< M / healthy - 1 [-]; needs both healthy values
   /// What all dampers of a vehicle have changed alike [-], as they warm or cool, where that is why there is no warning.
   std::optional<double> shared_damping_change;
-  double damping_significance = std::nan("");  ///< change in its standard deviations; NaN: not known
+  double damping_stddev = std::nan("");  ///< of ln(1 + change); NaN: not known
+  double stiffness_stddev = std::nan("");
+  double damping_significance = std::nan("");  ///< change in its standard deviations, or less: a load may explain it
   double stiffness_significance = std::nan("");
   HealthLevel damping_level = HealthLevel::kOk;
   HealthLevel stiffness_level = HealthLevel::kOk;
+  double known_to = std::nan("");      ///< StrutEstimate::knownTo() of the newest estimate; NaN: there is none
+  double seconds_more = std::nan("");  ///< secondsUntil(enough) [s]
+  double enough = std::nan("");        ///< HealthThresholds::enough() [-]
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why the estimate of the blocks is not valid
   bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant
   bool friction_doubt = false;  ///< `uncertain`, mainly because friction acts otherwise than on the baseline's road
@@ -228,8 +242,8 @@ struct HealthReport {
   bool learning_restarted = false;  ///< because the strut was changing
 };
 
-/// @return the report in one sentence for a person, e.g. "damping 31 % below baseline (12 sigma), stiffness at
-/// baseline".
+/// @return the report in one sentence for a person, e.g. "damping 31 % below baseline (28 to 34 %), stiffness
+/// at baseline"; the interval holds the truth 95 times of 100.
 std::string describe(const HealthReport& report);
 
 /// Everything that is known after one sample.

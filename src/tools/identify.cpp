@@ -102,7 +102,8 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
 /// @return why the strut is not known, neither over the whole drive nor at its end, in words; empty: it is.
 std::string whyNotValid(const IdentifyResult& found, const MonitorOptions& options) {
   if (found.estimate.valid() || found.now.valid()) return "";
-  if (found.estimate.effective_rows > 0.0) return "no estimate is valid: " + describe(found.estimate.doubt);
+  if (found.estimate.effective_rows > 0.0)
+    return "no estimate is valid: " + describeDoubt(found.estimate, options.enough());
   constexpr double kLengths = (kBlockWindows.front() + 1) / 2.0;  // of blocks that overlap by half
   const double enough = kLengths * MonitorSettings(options).presentBlockLength();
   if (static_cast<double>(found.samples) * found.sample_period < enough)

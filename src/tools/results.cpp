@@ -109,6 +109,7 @@ json toJson(const StrutEstimate& estimate) {
   result["rows"] = estimate.effective_rows;
   result["valid"] = estimate.valid();
   result["reason"] = estimate.valid() ? "" : describe(estimate.doubt);
+  result["known_to"] = estimate.knownTo();
   result["natural_frequency"] = estimate.naturalFrequency();
   result["damping_ratio"] = estimate.dampingRatio();
   return result;

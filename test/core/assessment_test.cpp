@@ -265,6 +265,33 @@ TEST(HealthReport, SaysInOneSentenceWhatChanged) {
   EXPECT_EQ(describe(HealthReport{}), "cannot tell: too few readings since a start or a gap");
 }
 
+// ln 0.69 = -0.371, +- 1.96 * 0.05: 1 - exp(-0.273), 1 - exp(-0.469).
+TEST(HealthReport, GivesTheSizeOfAChangeWithItsInterval) {
+  StrutEstimate worn = estimate(-0.31, 0.0);
+  worn.damping_to_mass_stddev = 0.05 * worn.damping_to_mass;
+  EXPECT_EQ(describe(judged(worn)), "damping 31 % below nominal (24 to 37 %), stiffness at nominal");
+  StrutEstimate stiff = estimate(0.0, 0.25);
+  stiff.stiffness_to_mass_stddev = 0.05 * stiff.stiffness_to_mass;
+  EXPECT_EQ(describe(judged(stiff)), "damping at nominal, stiffness 25 % above nominal (13 to 38 %)");
+}
+
+TEST(StrutEstimate, SaysHowMuchLongerToDrive) {
+  StrutEstimate known = estimate(0.0, 0.0);
+  known.window = 10.0;
+  known.damping_to_mass_stddev = 0.05 * known.damping_to_mass;
+  known.stiffness_to_mass_stddev = 0.01 * known.stiffness_to_mass;
+  EXPECT_DOUBLE_EQ(known.knownTo(), 1.96 * 0.05);
+  EXPECT_NEAR(known.secondsUntil(1.96 * 0.025), 30.0, 1e-9) << "half the deviation takes four times the drive";
+  EXPECT_EQ(known.secondsUntil(0.1), 0.0);
+  known.doubt = EstimateDoubt::kDampingNotExcited;
+  EXPECT_EQ(describeDoubt(known, 1.96 * 0.025),
+            "too little motion to know damping: drive on, or use a rougher road; damping and stiffness are known to 10 %, "
+            "about 30 s more on this road to 5 %");
+  known.doubt = EstimateDoubt::kOldData;
+  EXPECT_EQ(describeDoubt(known, 0.05), describe(EstimateDoubt::kOldData));
+  EXPECT_TRUE(std::isnan(StrutEstimate().knownTo()));
+}
+
 TEST(HealthReport, SaysThatANewLevelIsBeingConfirmed) {
   HealthAssessment assessment(options());
   for (double t = 0.0; t <= 2.0; t += 0.02) update(assessment, at(t), StrutEstimate());

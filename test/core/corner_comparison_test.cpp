@@ -46,7 +46,7 @@ TEST(CornerComparison, NamesTheOneCornerWhoseDamperIsWornWhicheverItIs) {
     corners[worn].estimate.damping_to_mass *= 0.72;
     const CornerComparisonReport report = compareCorners(corners);
     EXPECT_EQ(report.level, HealthLevel::kWarn);
-    EXPECT_EQ(describe(report), std::string(kCornerNames[worn]) + " damping 28 % below the other corners: damage");
+    EXPECT_EQ(describe(report), std::string(kCornerNames[worn]) + " damping 28 % below the other corners (26 to 30 %): damage");
     EXPECT_NEAR(*report.damping_deviation[worn], -0.28, 1e-12);
     EXPECT_NEAR(*report.stiffness_deviation[worn], 0.0, 1e-12);
     for (std::size_t i = 0; i < kNumCorners; ++i)
@@ -142,7 +142,7 @@ TEST(CornerComparison, WithoutBaselinesTheWheelsOfAnAxleAreCompared) {
   const CornerComparisonReport report = compareCorners(corners);
   EXPECT_EQ(report.verdicts[kRearRight], CornerVerdict::kDamper);
   EXPECT_EQ(report.verdicts[kRearLeft], CornerVerdict::kAlike);
-  EXPECT_EQ(describe(report), "rear_right damping 30 % below rear_left (no baseline): damage");
+  EXPECT_EQ(describe(report), "rear_right damping 30 % below rear_left (28 to 32 %, no baseline): damage");
 }
 
 }  // namespace

@@ -106,6 +106,9 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
   now.outliers = outlying_ > kOutlyingOften;
   now.learned = baseline_.learned;
+  now.known_to = estimate.knownTo();
+  now.enough = options_.enough();
+  now.seconds_more = estimate.secondsUntil(now.enough);
   if (learner_) {
     now.learning = learner_->progress();
     now.learning_restarted = learner_->restarts() > 0;
@@ -194,6 +197,7 @@ void HealthAssessment::judge(const StrutChange& change) {
   if (change.damping) {
     const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured.damping,
                                     options_.damping_warn, options_.damping_error);
+    now.damping_stddev = damping.stddev;
     now.damping_significance = damping.significance;
     const HealthLevel before = damping_.level;
     damping_.level = levelOf(damping, before, options_);
@@ -208,6 +212,7 @@ void HealthAssessment::judge(const StrutChange& change) {
   if (change.stiffness) {
     const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured.stiffness,
                                       options_.stiffness_warn, options_.stiffness_error);
+    now.stiffness_stddev = stiffness.stddev;
     now.stiffness_significance = stiffness.significance;
     stiffness_.level = levelOf(stiffness, stiffness_.level, options_);
   }

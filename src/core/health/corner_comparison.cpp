@@ -15,8 +15,7 @@ using Deviation = Eigen::Array3d;  // ln of a ratio by Part; kStrut: damping les
 
 // One corner against the healthy strut.
 struct Change {
-  Deviation size = Deviation::Zero();
-  double variance = 0.0;  // of kStrut, correlation neglected
+  Deviation size = Deviation::Zero(), variance = size;  // correlation of damping and stiffness neglected
 };
 
 using Changes = std::array<Change, kNumCorners>;
@@ -34,8 +33,9 @@ std::optional<Changes> changesOf(const std::array<CornerState, kNumCorners>& cor
     const MeasuredChange change = changeFrom(from_healthy ? healthy : one, estimate).change;
     if (!change.damping || !change.stiffness) return std::nullopt;
     const LogChange &damping = *change.damping, &stiffness = *change.stiffness;
+    const double of_damping = square(damping.stddev), of_stiffness = square(stiffness.stddev);
     changes[corner] = {{damping.size, stiffness.size, damping.size - stiffness.size},
-                       square(damping.stddev) + square(stiffness.stddev)};
+                       {of_damping, of_stiffness, of_damping + of_stiffness}};
   }
   return changes;
 }
@@ -50,6 +50,10 @@ Deviation medianOf(const Changes& changes, const Members& members) {
     median[part] = 0.5 * (sizes[(sizes.size() - 1) / 2] + sizes[sizes.size() / 2]);
   }
   return median;
+}
+
+Change against(const Change& one, const Change& other) {
+  return {one.size - other.size, one.variance + other.variance};
 }
 
 Members without(std::size_t corner, Members members) {
@@ -72,12 +76,12 @@ Part changedPart(const Deviation& deviation) {
   return std::abs(deviation[kDamping]) >= std::abs(deviation[kStiffness]) ? kDamping : kStiffness;
 }
 
-void accuse(CornerComparisonReport& report, std::size_t corner, const Deviation& deviation,
+void accuse(CornerComparisonReport& report, std::size_t corner, const Change& ratio,
             const std::optional<std::size_t>& partner = {}) {
-  const Part part = changedPart(deviation);
+  const Part part = changedPart(ratio.size);
   report.verdicts[corner] = part == kDamping ? CornerVerdict::kDamper : CornerVerdict::kSpring;
   report.level = HealthLevel::kWarn;
-  report.damages.push_back({corner, std::expm1(deviation[part]), partner});
+  report.damages.push_back({corner, std::expm1(ratio.size[part]), std::sqrt(ratio.variance[part]), partner});
 }
 
 // Accuses the corner furthest from the others, takes it out, and so on.
@@ -90,12 +94,11 @@ Members takeOutDamaged(const Changes& changes, Members members, CornerComparison
       return std::abs(deviation(a)) < std::abs(deviation(b));
     });
     const Members others = without(worst, members);
-    double variance = 0.0;
-    for (const std::size_t other : others) variance = std::max(variance, changes[other].variance);
-    if (!counts(deviation(worst), variance + changes[worst].variance)) break;
+    Change median{medianOf(changes, others)};
+    for (const std::size_t other : others) median.variance = median.variance.max(changes[other].variance);
+    if (!counts(deviation(worst), (median.variance + changes[worst].variance)[kStrut])) break;
     const std::size_t partner = sameAxle(worst);
-    accuse(report, worst,
-           changes[worst].size - (has(others, partner) ? changes[partner].size : medianOf(changes, others)));
+    accuse(report, worst, against(changes[worst], has(others, partner) ? changes[partner] : median));
     members = others;
   }
   return members;
@@ -105,7 +108,7 @@ Members takeOutDamaged(const Changes& changes, Members members, CornerComparison
 void findLoad(const Changes& changes, const Members& healthy, CornerComparisonReport& report) {
   Members loaded;
   for (const std::size_t corner : healthy) {
-    if (!counts(changes[corner].size[kStiffness], changes[corner].variance)) continue;
+    if (!counts(changes[corner].size[kStiffness], changes[corner].variance[kStrut])) continue;
     report.verdicts[corner] = CornerVerdict::kLoad;
     loaded.push_back(corner);
   }
@@ -130,10 +133,11 @@ void compareAxles(const Changes& changes, const Members& valid, CornerComparison
       report.verdicts[left] = report.verdicts[right] = CornerVerdict::kCannotTell;
       continue;
     }
-    const Deviation ratio = changes[left].size - changes[right].size;
-    if (!counts(ratio[kStrut], changes[left].variance + changes[right].variance)) continue;
-    const bool left_is_weaker = ratio[changedPart(ratio)] < 0.0;
-    left_is_weaker ? accuse(report, left, ratio, right) : accuse(report, right, -ratio, left);
+    const Change ratio = against(changes[left], changes[right]);
+    if (!counts(ratio.size[kStrut], ratio.variance[kStrut])) continue;
+    const bool left_is_weaker = ratio.size[changedPart(ratio.size)] < 0.0;
+    left_is_weaker ? accuse(report, left, ratio, right)
+                   : accuse(report, right, against(changes[right], changes[left]), left);
   }
 }
 

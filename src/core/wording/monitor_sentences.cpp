@@ -100,21 +100,48 @@ std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptio
 
 namespace {
 
-// More standard deviations than that nobody needs to count.
-constexpr long kBeyondDoubt = 10;
-
-std::string describeSignificance(long sigmas) {
-  if (sigmas == 0) return {};
-  return sigmas > kBeyondDoubt ? " (beyond doubt)" : formatted(" (%ld sigma)", sigmas);
+std::string describeKnown(double known_to, double enough, double seconds) {
+  constexpr double kDay = 86400.0;  // [s]
+  if (!std::isfinite(known_to)) return {};
+  const std::string known = "; damping and stiffness are known to " + sizeInPercent(known_to);
+  if (!(seconds > 0.0)) return known;
+  if (!(seconds < kDay)) return known + ", this road cannot tell them";
+  return known + formatted(", about %.0f s more on this road to ", std::fmax(1.0, seconds)) + sizeInPercent(enough);
 }
 
-std::string describeChange(const std::string& parameter, const std::optional<double>& change, double significance,
+std::string describeDoubt(EstimateDoubt doubt, const std::string& known) {
+  const bool is_excitation = doubt == EstimateDoubt::kNotExcited || doubt == EstimateDoubt::kDampingNotExcited ||
+                             doubt == EstimateDoubt::kStiffnessNotExcited;
+  return describe(doubt) + (is_excitation ? known : "");
+}
+
+}  // namespace
+
+std::string describeDoubt(const StrutEstimate& estimate, double enough) {
+  return describeDoubt(estimate.doubt, describeKnown(estimate.knownTo(), enough, estimate.secondsUntil(enough)));
+}
+
+namespace {
+
+// @param stddev  of ln(1 + change).
+// @return what holds its size 95 times of 100: "28 to 34 %"; empty: not known, or no wider than the last digit.
+std::string intervalOf(double change, double stddev) {
+  const double half = normalQuantile(0.025) * stddev;
+  if (!std::isfinite(half)) return {};
+  const auto percent = [&](double log_change) {
+    return std::lround(std::copysign(100.0, change) * std::expm1(log_change));
+  };
+  const auto [low, high] = std::minmax({percent(std::log1p(change) - half), percent(std::log1p(change) + half)});
+  return low == high ? "" : formatted("%ld to %ld %%", low, high);
+}
+
+std::string describeChange(const std::string& parameter, const std::optional<double>& change, double stddev,
                            const std::string& reference) {
   if (!change) return {};
   if (std::lround(100.0 * *change) == 0) return parameter + " at " + reference;
-  const std::string text =
-      parameter + " " + sizeInPercent(*change) + (*change < 0.0 ? " below " : " above ") + reference;
-  return std::isfinite(significance) ? text + describeSignificance(std::lround(significance)) : text;
+  const std::string interval = intervalOf(*change, stddev);
+  return parameter + " " + sizeInPercent(*change) + (*change < 0.0 ? " below " : " above ") + reference +
+         (interval.empty() ? "" : " (" + interval + ")");
 }
 
 std::string describePayload(double change) {
@@ -126,8 +153,8 @@ const char* referenceOf(bool learned) { return learned ? "baseline" : "nominal";
 
 std::string describeChanges(const HealthReport& report) {
   const std::string reference = referenceOf(report.learned);
-  return join({describeChange("damping", report.damping_change, report.damping_significance, reference),
-               describeChange("stiffness", report.stiffness_change, report.stiffness_significance, reference),
+  return join({describeChange("damping", report.damping_change, report.damping_stddev, reference),
+               describeChange("stiffness", report.stiffness_change, report.stiffness_stddev, reference),
                describePayload(report.payload_change.value_or(0.0))});
 }
 
@@ -142,20 +169,21 @@ std::string describe(LoadDoubt doubt) {
 }
 
 std::string describeJudgement(const HealthReport& report) {
+  const std::string known = describeKnown(report.known_to, report.enough, report.seconds_more);
   if (report.level == HealthLevel::kStale && report.uncertain && report.load_doubt != LoadDoubt::kNone)
     return describe(report.load_doubt);
   if (report.level == HealthLevel::kStale && report.uncertain && report.friction_doubt)
     return "cannot tell: dry friction, or a damper that is not linear, makes too much of the difference between this "
            "road and that of the baseline (learn one on such a road)";
   if (report.level == HealthLevel::kStale && report.uncertain)
-    return "cannot tell: estimates too uncertain to prove a change (drive on, or use a rougher road)";
+    return "cannot tell: estimates too uncertain to prove a change (drive on, or use a rougher road" + known + ")";
   if (report.level == HealthLevel::kStale && report.doubt == EstimateDoubt::kNone)
     return "cannot tell yet: a new level must last for health/confirm_time";
-  if (report.level == HealthLevel::kStale) return "cannot tell: " + describe(report.doubt);
+  if (report.level == HealthLevel::kStale) return "cannot tell: " + describeDoubt(report.doubt, known);
   const std::string changes = describeChanges(report);
   if (!changes.empty()) return join({changes, describe(report.load_doubt)}, "; ");
   if (!report.learning) return "estimates valid; no nominal values given to judge them by";
-  return "learning the baseline: " + sizeInPercent(*report.learning) + " of the learning time" +
+  return "learning the baseline: " + sizeInPercent(*report.learning) + " of the learning time" + known +
          (report.learning_restarted ? " (begun anew: the strut was changing)" : "");
 }
 
@@ -168,9 +196,11 @@ std::string describeShared(const HealthReport& report) {
 std::string nameOf(std::size_t corner) { return std::string(kCornerNames[corner]); }
 
 std::string describe(const CornerDamage& damage, CornerVerdict verdict) {
+  const std::string note = join({intervalOf(damage.change, damage.stddev), damage.partner ? "no baseline" : ""});
   return nameOf(damage.corner) + (verdict == CornerVerdict::kDamper ? " damping " : " stiffness ") +
          sizeInPercent(damage.change) + (damage.change < 0.0 ? " below " : " above ") +
-         (damage.partner ? nameOf(*damage.partner) + " (no baseline)" : "the other corners") + ": damage";
+         (damage.partner ? nameOf(*damage.partner) : "the other corners") + (note.empty() ? "" : " (" + note + ")") +
+         ": damage";
 }
 
 std::string describeLoad(const CornerComparisonReport& report) {
@@ -211,11 +241,8 @@ std::string describe(const HealthReport& report) {
 
 std::string describe(const StrutChange& change, const Baseline& healthy) {
   const std::string reference = referenceOf(healthy.learned);
-  const auto part = [&](const char* parameter, const std::optional<double>& size, double stddev) {
-    return describeChange(parameter, size, std::abs(std::log1p(size.value_or(0.0))) / stddev, reference);
-  };
-  return join({part("damping", change.damping, change.damping_stddev),
-               part("stiffness", change.stiffness, change.stiffness_stddev),
+  return join({describeChange("damping", change.damping, change.damping_stddev, reference),
+               describeChange("stiffness", change.stiffness, change.stiffness_stddev, reference),
                describePayload(change.payload.value_or(0.0))});
 }
 

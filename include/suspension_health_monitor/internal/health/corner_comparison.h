@@ -32,6 +32,7 @@ enum class CornerVerdict : unsigned char {
 struct CornerDamage {
   std::size_t corner;
   double change;                       ///< of its damping or stiffness against the others', as a share [-]
+  double stddev;                       ///< of ln(1 + change)
   std::optional<std::size_t> partner;  ///< the wheel that it was compared with; none: all others, by nominal values
 };
 

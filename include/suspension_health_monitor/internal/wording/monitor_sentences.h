@@ -44,8 +44,8 @@ struct StrutOfDrive {
   double horizon = 0.0;  ///< of the integral filter [s]
 };
 
-/// @return the strut by instrumental variables over the whole drive, else, where that is not valid or not the strut at
-/// the end, by LA, else by LS at the end of the drive; nothing: none is valid.
+/// @return the strut over the whole drive, else, where that is not valid or not the strut at the end, as it is at the
+/// end; nothing: neither is valid.
 std::optional<StrutOfDrive> strutOf(const IdentifyResult& found);
 
 /// @param options  whose payload_range counts.
@@ -58,5 +58,9 @@ std::string describeChange(const IdentifyResult& found, const Baseline& healthy,
 /// @return the same of drives that were searched for effects.
 std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptions& searched, const Baseline& healthy,
                            const MonitorOptions& options);
+
+/// @param enough  to be known to, StrutEstimate::knownTo() [-].
+/// @return why an estimate is not valid; where more motion is needed also what is known, and how much longer to drive.
+std::string describeDoubt(const StrutEstimate& estimate, double enough);
 
 }  // namespace suspension_health_monitor
