@@ -306,6 +306,7 @@ class StrutEstimate:
     friction: Optional[DryFriction]  # of estimate without other effects, or None
     gain: float  # of the body's sensor over that of the wheel's, less 1 [-]
     gain_stddev: float  # [-]
+    known_to: float  # half the width of the 95 % interval of b1 or b0, over its size: the larger one [-]
     natural_frequency: float  # undamped [Hz]
     offset: float  # of the wheel carrier's reading against the body's [m/s^2]; of ls and la, else NaN
     reason: str  # why it is not valid; empty if it is

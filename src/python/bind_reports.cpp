@@ -51,6 +51,7 @@ void bindEstimates(py::module& module) {
   ResultClass<DryFriction>(module, "DryFriction", "Dry friction, beside which the linear strut was estimated.")
       .add("damping_covariance", &DryFriction::damping_covariance);
   ResultClass<StrutEstimate>(module, "StrutEstimate", "What one estimator knows of the strut; NaN: nothing yet.")
+      .add("known_to", &StrutEstimate::knownTo)
       .add("natural_frequency", &StrutEstimate::naturalFrequency)
       .add("damping_ratio", &StrutEstimate::dampingRatio)
       .add("valid", &StrutEstimate::valid)

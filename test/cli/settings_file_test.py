@@ -55,13 +55,14 @@ def test_commands_load_it_and_judge_by_it(program, worn, settings):
 
 def test_strut_is_told_against_nominal_values_in_a_sentence(program, bag, worn, settings, tmp_path):
     sentence = re.compile(r"^the strut, over the whole drive: (.*)$", re.MULTILINE)
-    assert re.fullmatch(r"damping 20 % below nominal \((19|20) to (20|21) %\), stiffness at nominal",
-                        sentence.search(program.succeed("identify", worn, "--config", settings))[1])
+    # Known to less than a percent: without an interval.
+    assert sentence.search(program.succeed("identify", worn, "--config", settings))[1] == (
+        "damping 20 % below nominal, stiffness at nominal")
     assert sentence.search(program.succeed("identify", bag, "--config", settings))[1] == (
         "damping at nominal, stiffness at nominal")
     (tmp_path / "baseline.yaml").write_text(f"damping_to_mass: {B1 / 2}\nstiffness_to_mass: {B0}\n")
     told = sentence.search(program.succeed("identify", bag, "--baseline", tmp_path / "baseline.yaml"))[1]
-    assert told.startswith("damping 100 % above baseline (")
+    assert re.match(r"damping (99|100|101) % above baseline", told)
     assert not sentence.search(program.succeed("identify", bag)), "nothing to be against"
 
 
@@ -69,7 +70,7 @@ def test_diagnose_tells_it_as_well_and_keeps_its_verdict(program, worn, settings
     told = program.succeed("diagnose", worn, "--config", settings, "--json", tmp_path / "found.json", "--report", tmp_path)
     found = json.loads((tmp_path / "found.json").read_text())
     assert found["verdict"] == "nothing_missing"
-    assert found["change"].startswith("the strut, over the whole drive: damping 20 % below nominal (")
+    assert found["change"] == "the strut, over the whole drive: damping 20 % below nominal, stiffness at nominal"
     assert f"\n{found['change']}\n" in told
     page = browser.shown(tmp_path / "report.html", tmp_path / "profile")
     assert page.one("section", id="verdict").one("p", class_="change").text == f"T{found['change'][1:]}."

@@ -273,6 +273,9 @@ TEST(HealthReport, GivesTheSizeOfAChangeWithItsInterval) {
   StrutEstimate stiff = estimate(0.0, 0.25);
   stiff.stiffness_to_mass_stddev = 0.05 * stiff.stiffness_to_mass;
   EXPECT_EQ(describe(judged(stiff)), "damping at nominal, stiffness 25 % above nominal (13 to 38 %)");
+  stiff = estimate(0.0, 0.026);
+  stiff.stiffness_to_mass_stddev = 0.05 * stiff.stiffness_to_mass;
+  EXPECT_EQ(describe(judged(stiff)), "damping at nominal, stiffness 3 % above nominal (7 % below to 13 % above)");
 }
 
 TEST(StrutEstimate, SaysHowMuchLongerToDrive) {

@@ -124,7 +124,8 @@ std::string describeDoubt(const StrutEstimate& estimate, double enough) {
 namespace {
 
 // @param stddev  of ln(1 + change).
-// @return what holds its size 95 times of 100: "28 to 34 %"; empty: not known, or no wider than the last digit.
+// @return what holds its size 95 times of 100: "28 to 34 %", "2 % below to 4 % above"; empty: not known, or no wider
+// than the last digit.
 std::string intervalOf(double change, double stddev) {
   const double half = normalQuantile(0.025) * stddev;
   if (!std::isfinite(half)) return {};
@@ -132,7 +133,10 @@ std::string intervalOf(double change, double stddev) {
     return std::lround(std::copysign(100.0, change) * std::expm1(log_change));
   };
   const auto [low, high] = std::minmax({percent(std::log1p(change) - half), percent(std::log1p(change) + half)});
-  return low == high ? "" : formatted("%ld to %ld %%", low, high);
+  if (low == high) return {};
+  if (low >= 0) return formatted("%ld to %ld %%", low, high);
+  const bool is_below = change < 0.0;
+  return formatted("%ld %% %s to %ld %% %s", -low, is_below ? "above" : "below", high, is_below ? "below" : "above");
 }
 
 std::string describeChange(const std::string& parameter, const std::optional<double>& change, double stddev,
