@@ -99,7 +99,10 @@ void Checked::read(ImuBags bags, const std::vector<BagTopic>& asked) {
       imu.has_gyro = imu.has_gyro || (message.angular_velocity_covariance[0] != -1.0 &&
                                       (rate.x != 0.0 || rate.y != 0.0 || rate.z != 0.0));
       imu.survey.add(toStamp(message.header.stamp), reading);
-      spectra->push(places[topic], toStamp(message.header.stamp), reading);
+      SixAxes all = SixAxes::Zero();
+      all.head<3>() = reading;
+      if (imu.has_gyro) all.tail<3>() << rate.x, rate.y, rate.z;
+      spectra->push(places[topic], toStamp(message.header.stamp), all);
       return true;
     };
     if (!bag.topics.empty()) readTopics(bag, {take, {}});
@@ -110,7 +113,7 @@ void Checked::read(ImuBags bags, const std::vector<BagTopic>& asked) {
 /// Finds what points up, and which IMU is which.
 void Checked::orient() {
   std::vector<double> rates;
-  std::vector<bool> may_serve_several;
+  std::vector<bool> has_gyro;
   std::vector<Eigen::Vector3d> ups;
   for (std::size_t i = 0; i < imus.size(); ++i) {
     CheckedImu& imu = imus[i];
@@ -126,9 +129,9 @@ void Checked::orient() {
     const bool is_known = imu.survey.isKnown() && spectra->blocks(i) >= kFewestBlocks;
     ups.push_back(is_known ? imu.up : Eigen::Vector3d::Zero());
     rates.push_back(is_known ? imu.survey.rate() : HUGE_VAL);
-    may_serve_several.push_back(imu.has_gyro);
+    has_gyro.push_back(imu.has_gyro && is_known);
   }
-  pairs = findBodiesOverWheels(spectra->along(ups), spectra->band(), rates, may_serve_several);
+  pairs = findBodiesOverWheels(spectra->along(ups, has_gyro), rates);
   // Of two IMUs against each other the one turns that gravity says nothing of, with all that it belongs to.
   for (const BodyOverWheel& first : std::vector<BodyOverWheel>(pairs)) {
     if (!first.is_reversed || imus[first.body].by_gravity || !imus[first.wheel].by_gravity) continue;
@@ -175,10 +178,12 @@ void print(const Checked& checked) {
     }
     std::printf("%s\n", fault.empty() ? "OK" : fault.c_str());
   }
+  std::vector<std::string> without_gravity;
   for (const CheckedImu& imu : checked.imus)
-    if (imu.survey.isKnown() && !imu.survey.gravity())
-      std::printf("%s: no gravity, so up is the axis that moves most; its sign fits that of its pair\n",
-                  imu.topic.c_str());
+    if (imu.survey.isKnown() && !imu.survey.gravity()) without_gravity.push_back(imu.topic);
+  if (!without_gravity.empty())
+    std::printf("No gravity in %s: up is the axis that moves most, and its sign fits that of its pair.\n",
+                join(without_gravity).c_str());
   checked.gaps.print();
   std::printf("\n");
   for (const BodyOverWheel& pair : checked.pairs) std::printf("%s\n", sentenceOf(pair, checked).c_str());

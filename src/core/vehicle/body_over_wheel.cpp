@@ -19,6 +19,9 @@ constexpr double kFarthestDelay = 0.04, kDelayStep = 0.004;  // [s]
 
 using Index = Eigen::Index;
 
+constexpr int kAxes = SixAxes::RowsAtCompileTime;
+constexpr double kTiny = 1e-300;  // instead of dividing by 0
+
 BlockBand bandOfCheck() {
   BlockBand band(kLength, kLength);
   band.last = static_cast<int>(kHighest * kLength);
@@ -27,7 +30,7 @@ BlockBand bandOfCheck() {
 
 /// A regressor: a signal times a function of s.
 struct Term {
-  std::size_t imu;
+  std::size_t signal;
   Eigen::ArrayXcd weight;
 };
 
@@ -49,7 +52,7 @@ class SpectralFit {
   /// @param bins  the first ones, that are used.
   LinearFit operator()(const Term& output, const std::vector<Term>& terms, Index bins) const {
     const auto n = static_cast<Index>(terms.size());
-    const auto y = static_cast<Index>(output.imu);
+    const auto y = static_cast<Index>(output.signal);
     Eigen::ArrayXd power(bins);
     for (Index k = 0; k < bins; ++k) power[k] = at(k)(y, y).real();
     // Every bin counts by its share of the motion, those that are nearly silent by less.
@@ -57,9 +60,9 @@ class SpectralFit {
     const auto product = [&](const Term& a, const Term& b) {
       double sum = 0.0;
       for (Index k = 0; k < bins; ++k)
-        sum +=
-            weight[k] *
-            (std::conj(a.weight[k]) * b.weight[k] * at(k)(static_cast<Index>(b.imu), static_cast<Index>(a.imu))).real();
+        sum += weight[k] * (std::conj(a.weight[k]) * b.weight[k] *
+                            at(k)(static_cast<Index>(b.signal), static_cast<Index>(a.signal)))
+                               .real();
       return sum;
     };
     Eigen::MatrixXd normal(n, n);
@@ -69,7 +72,7 @@ class SpectralFit {
       for (Index q = 0; q <= p; ++q)
         normal(p, q) = normal(q, p) = product(terms[static_cast<std::size_t>(p)], terms[static_cast<std::size_t>(q)]);
     }
-    const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::VectorXd scale = normal.diagonal().cwiseMax(kTiny).cwiseSqrt().cwiseInverse();
     LinearFit fit;
     fit.parameters = scale.asDiagonal() * solveSymmetric(scale.asDiagonal() * normal * scale.asDiagonal(),
                                                          Eigen::MatrixXd(scale.cwiseProduct(right)));
@@ -84,7 +87,7 @@ class SpectralFit {
   Eigen::ArrayXcd s_;
 };
 
-/// What the wheels make of one IMU.
+/// What the wheels make of one signal.
 struct Response {
   std::vector<std::size_t> wheels;
   std::vector<double> damping;  // b1 of each wheel [1/s]
@@ -94,89 +97,90 @@ struct Response {
 
 class Pairing {
  public:
-  Pairing(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand& band, const std::vector<double>& rates)
-      : fit_(spectra, band), band_(band), rates_(rates), shake_(rates.size(), 0.0) {
-    for (std::size_t k = 0; k < spectra.size(); ++k)
-      if (band.omega(band.first + static_cast<int>(k)) >= 2.0 * M_PI * kShake)
+  Pairing(const ImuSignals& signals, const std::vector<double>& rates)
+      : signals_(signals), fit_(signals.spectra, signals.band), rates_(rates), shake_(signals.imus, 0.0) {
+    for (std::size_t k = 0; k < signals.spectra.size(); ++k)
+      if (signals.band.omega(signals.band.first + static_cast<int>(k)) >= 2.0 * M_PI * kShake)
         for (std::size_t i = 0; i < shake_.size(); ++i)
-          shake_[i] += spectra[k](static_cast<Index>(i), static_cast<Index>(i)).real();
+          shake_[i] += signals.spectra[k](static_cast<Index>(i), static_cast<Index>(i)).real();
   }
 
-  std::size_t size() const { return rates_.size(); }
+  const ImuSignals& signals() const { return signals_; }
   /// An IMU that was silent shakes nothing, and is shaken by nothing.
   bool shakesMore(std::size_t wheel, std::size_t body) const {
     return shake_[body] > 0.0 && shake_[wheel] > kClearlyMore * shake_[body];
   }
 
-  /// @return how an IMU moves over wheels.
-  Response respond(std::size_t imu, const std::vector<std::size_t>& wheels) const {
+  /// @return how a signal moves over wheels.
+  Response respond(std::size_t signal, const std::vector<std::size_t>& wheels) const {
     Response best{wheels, std::vector<double>(wheels.size()), std::vector<double>(wheels.size())};
     if (wheels.empty()) return best;
     double delay = 0.0;
     LinearFit nearest;
     for (double tried = -kFarthestDelay; tried < kFarthestDelay + kDelayStep / 2.0; tried += kDelayStep) {
-      const LinearFit found = fit(imu, wheels, tried);
+      const LinearFit found = fit(signal, wheels, tried);
       if (found.left < nearest.left) nearest = found, delay = tried;
     }
-    const double alone = fit(imu, {}, delay).left;
+    if (nearest.parameters.size() == 0) return best;  // a signal that is 0
+    const double alone = fit(signal, {}, delay).left;
     best.explained = 1.0 - nearest.left / alone;
     best.delay = delay;
     for (std::size_t j = 0; j < wheels.size(); ++j) {
       best.damping[j] = nearest.parameters[static_cast<Index>(2 + 2 * j)];
       std::vector<std::size_t> others = wheels;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-      best.worth[j] = (fit(imu, others, delay).left - nearest.left) / alone;
+      best.worth[j] = (fit(signal, others, delay).left - nearest.left) / alone;
     }
     return best;
   }
 
   /// The slowest IMU ends the band.
-  Index bins(std::size_t imu, const std::vector<std::size_t>& wheels) const {
-    double rate = rates_[imu];
+  Index bins(std::size_t signal, const std::vector<std::size_t>& wheels) const {
+    double rate = rates_[signals_.owners[signal]];
     for (const std::size_t wheel : wheels) rate = std::min(rate, rates_[wheel]);
-    const int last = std::min(band_.last, static_cast<int>(kBlockTuning.usable * band_.length * rate));
-    return std::max(1, last - band_.first + 1);
+    const int last = std::min(signals_.band.last, static_cast<int>(kBlockTuning.usable * signals_.band.length * rate));
+    return std::max(1, last - signals_.band.first + 1);
   }
 
  private:
-  LinearFit fit(std::size_t imu, const std::vector<std::size_t>& wheels, double delay) const {
+  LinearFit fit(std::size_t signal, const std::vector<std::size_t>& wheels, double delay) const {
     const Eigen::ArrayXcd &s = fit_.s(), late = (s * delay).exp();
-    std::vector<Term> terms{{imu, -late / s}, {imu, -late / s.square()}};
+    std::vector<Term> terms{{signal, -late / s}, {signal, -late / s.square()}};
     for (const std::size_t wheel : wheels) {
       terms.push_back({wheel, s.inverse()});
       terms.push_back({wheel, s.square().inverse()});
     }
-    return fit_({imu, late}, terms, bins(imu, wheels));
+    return fit_({signal, late}, terms, bins(signal, wheels));
   }
 
+  const ImuSignals& signals_;
   SpectralFit fit_;
-  BlockBand band_;
   std::vector<double> rates_;
   std::vector<double> shake_;  // power above kShake
 };
 
-/// @return the responses of bodies; nothing of the other IMUs.
+/// @return the responses of the signals of bodies; nothing of the others.
 std::vector<std::optional<Response>> findBodies(const Pairing& pairing) {
-  std::vector<std::optional<Response>> found(pairing.size());
-  const auto respond = [&](std::size_t imu, bool to_wheels_alone) {
+  const ImuSignals& signals = pairing.signals();
+  std::vector<std::optional<Response>> found(signals.owners.size());
+  const auto respond = [&](std::size_t signal, bool to_wheels_alone) {
     std::vector<std::size_t> wheels;
-    for (std::size_t j = 0; j < pairing.size(); ++j)
-      if (pairing.shakesMore(j, imu) && !(to_wheels_alone && found[j])) wheels.push_back(j);
-    std::optional<Response> response = pairing.respond(imu, wheels);
+    for (std::size_t j = 0; j < signals.imus; ++j)
+      if (pairing.shakesMore(j, signals.owners[signal]) && !(to_wheels_alone && found[j])) wheels.push_back(j);
+    std::optional<Response> response = pairing.respond(signal, wheels);
     if (!(response->explained > kMajority)) response.reset();
     return response;
   };
-  for (std::size_t i = 0; i < found.size(); ++i) found[i] = respond(i, false);
+  for (std::size_t i = 0; i < signals.imus; ++i) found[i] = respond(i, false);
   auto bodies = found;
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (found[i]) bodies[i] = respond(i, true);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (found[signals.owners[i]]) bodies[i] = respond(i, true);
   return bodies;
 }
 
-/// @return b1 of each wheel (columns) on each body (rows), where it is worth having, else 0 [1/s].
-Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies) {
-  const auto imus = static_cast<Index>(bodies.size());
-  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(imus, imus);
+/// @return b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
+Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies, std::size_t imus) {
+  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(static_cast<Index>(bodies.size()), static_cast<Index>(imus));
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i]) continue;
     for (std::size_t j = 0; j < bodies[i]->wheels.size(); ++j)
@@ -186,11 +190,36 @@ Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies) {
   return push;
 }
 
+/// @return the signal of the body over a wheel: of the IMUs the one that it pushes hardest, as far as wheels explain
+/// what that reads; else one that it turns.
+std::optional<std::size_t> bodyOver(Index wheel, const Eigen::MatrixXd& push, const ImuSignals& signals,
+                                    const std::vector<std::optional<Response>>& bodies) {
+  const auto imus = static_cast<Index>(signals.imus);
+  const auto may_serve_several = [&](Index body) {
+    return std::count(signals.owners.begin(), signals.owners.end(), static_cast<std::size_t>(body)) > 1;
+  };
+  std::optional<std::size_t> best;
+  double hardest = 0.0;
+  for (Index body = 0; body < imus; ++body) {
+    if (push(body, wheel) == 0.0) continue;
+    // An IMU that serves one wheel alone is that wheel's more than any other's.
+    Index its_own = 0;
+    (push.row(body).cwiseAbs().array() / push.topRows(imus).cwiseAbs().colwise().maxCoeff().array().max(kTiny))
+        .maxCoeff(&its_own);
+    const auto place = static_cast<std::size_t>(body);
+    const double here = bodies[place]->explained * std::abs(push(body, wheel));
+    if (here > hardest && (its_own == wheel || may_serve_several(body))) best = place, hardest = here;
+  }
+  for (Index turn = imus; turn < push.rows() && !best; ++turn)
+    if (push(turn, wheel) != 0.0) best = static_cast<std::size_t>(turn);
+  return best;
+}
+
 /// Fits b1 and b0 of a strut to the motion of its own top by the travel of all struts.
 /// @return false: it is no damped spring.
-bool describeStrut(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand& band,
-                   const std::vector<BodyOverWheel>& pairs, const Pairing& pairing, BodyOverWheel& pair) {
-  const Index imus = spectra.front().rows(), struts = static_cast<Index>(pairs.size());
+bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairing, BodyOverWheel& pair) {
+  const ImuSignals& given = pairing.signals();
+  const Index imus = given.spectra.front().rows(), struts = static_cast<Index>(pairs.size());
   Eigen::MatrixXd signals = Eigen::MatrixXd::Identity(imus + struts, imus);  // the IMUs, then w'' - z'' of every strut
   for (Index j = 0; j < struts; ++j) {
     const BodyOverWheel& each = pairs[static_cast<std::size_t>(j)];
@@ -198,8 +227,8 @@ bool describeStrut(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand
     signals(imus + j, static_cast<Index>(each.body)) = -1.0;
   }
   std::vector<Eigen::MatrixXcd> all;
-  for (const Eigen::MatrixXcd& each : spectra) all.emplace_back(signals * each * signals.transpose());
-  const SpectralFit fit(all, band);
+  for (const Eigen::MatrixXcd& each : given.spectra) all.emplace_back(signals * each * signals.transpose());
+  const SpectralFit fit(all, given.band);
   const Eigen::ArrayXcd &s = fit.s(), late = (s * pair.delay).exp();
   std::vector<Term> terms{{pair.body, -s * late}};
   Index own = 0;
@@ -223,17 +252,17 @@ bool describeStrut(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand
 ImuSpectra::ImuSpectra(std::size_t imus)
     : band_(bandOfCheck()),
       modulation_(band_),
-      streams_(imus, {FourierIntegrals(band_, 3)}),
+      streams_(imus, {FourierIntegrals(band_, kAxes)}),
       sums_(static_cast<std::size_t>(band_.size()),
-            Eigen::MatrixXcd::Zero(static_cast<Index>(3 * imus), static_cast<Index>(3 * imus))),
+            Eigen::MatrixXcd::Zero(static_cast<Index>(kAxes * imus), static_cast<Index>(kAxes * imus))),
       counts_(Eigen::MatrixXd::Zero(static_cast<Index>(imus), static_cast<Index>(imus))) {}
 
-void ImuSpectra::push(std::size_t imu, Stamp stamp, const Eigen::Vector3d& acceleration) {
+void ImuSpectra::push(std::size_t imu, Stamp stamp, const SixAxes& reading) {
   Stream& stream = streams_[imu];
   if (!origin_) origin_ = stamp;
-  if ((stream.last && stamp <= *stream.last) || stamp < *origin_ || !acceleration.allFinite()) return;
+  if ((stream.last && stamp <= *stream.last) || stamp < *origin_ || !reading.allFinite()) return;
   stream.last = stamp;
-  stream.integrals.push(toSeconds(stamp - *origin_), acceleration.data());
+  stream.integrals.push(toSeconds(stamp - *origin_), reading.data());
   long slowest = stream.integrals.openHalf(), fastest = 0;
   for (const Stream& each : streams_) {
     slowest = std::min(slowest, each.integrals.openHalf());
@@ -260,17 +289,17 @@ void ImuSpectra::takeBlocks(long end) {
   next_half_ = std::max(next_half_, end - FourierIntegrals::kHalves);
   for (; next_half_ < end; ++next_half_) {
     const auto imus = static_cast<Index>(streams_.size());
-    Eigen::MatrixXcd values = Eigen::MatrixXcd::Zero(band_.size(), 3 * imus);
+    Eigen::MatrixXcd values = Eigen::MatrixXcd::Zero(band_.size(), kAxes * imus);
     Eigen::VectorXd is_there = Eigen::VectorXd::Zero(imus);
     Eigen::ArrayXcd integrals(band_.spectrumSize()), bins(band_.size());
     for (Index i = 0; i < imus; ++i) {
       const FourierIntegrals& stream = streams_[static_cast<std::size_t>(i)].integrals;
       if (stream.half(next_half_) == nullptr || stream.half(next_half_ - 1) == nullptr) continue;
       is_there[i] = 1.0;
-      for (Index axis = 0; axis < 3; ++axis) {
+      for (Index axis = 0; axis < kAxes; ++axis) {
         stream.sumHalves(next_half_, axis, integrals);
         modulation_.apply(0, integrals, bins);
-        values.col(3 * i + axis) = bins.matrix();
+        values.col(kAxes * i + axis) = bins.matrix();
       }
     }
     counts_ += is_there * is_there.transpose();
@@ -284,61 +313,56 @@ double ImuSpectra::rms(std::size_t imu, const Eigen::Vector3d& direction, double
   for (std::size_t k = 0; k < sums_.size(); ++k) {
     const double frequency = (band_.first + static_cast<int>(k)) / band_.length;
     if (frequency < from_hz || frequency >= to_hz) continue;
-    const auto own = sums_[k].block<3, 3>(static_cast<Index>(3 * imu), static_cast<Index>(3 * imu));
+    const auto own = sums_[k].block<3, 3>(static_cast<Index>(kAxes * imu), static_cast<Index>(kAxes * imu));
     sum += direction.dot(own.real() * direction);
   }
   // By Parseval under Hann's window, as WindowEstimate::setMotion().
   return std::sqrt(2.0 * sum / std::max(1.0, blocks(imu)) / 0.375) / band_.length;
 }
 
-std::vector<Eigen::MatrixXcd> ImuSpectra::along(const std::vector<Eigen::Vector3d>& up) const {
-  const auto imus = static_cast<Index>(streams_.size());
-  Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(imus, 3 * imus);
-  for (Index i = 0; i < imus; ++i) directions.block<1, 3>(i, 3 * i) = up[static_cast<std::size_t>(i)].transpose();
-  std::vector<Eigen::MatrixXcd> result;
-  for (const Eigen::MatrixXcd& sum : sums_) {
-    result.emplace_back(directions * sum * directions.transpose());
-    result.back().array() /= counts_.cwiseMax(1.0).array();
+ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const {
+  ImuSignals signals{band_};
+  signals.imus = streams_.size();
+  for (std::size_t i = 0; i < signals.imus; ++i) signals.owners.push_back(i);
+  for (std::size_t i = 0; i < signals.imus; ++i)
+    if (has_gyro[i]) signals.owners.insert(signals.owners.end(), 3, i);
+  const auto size = static_cast<Index>(signals.owners.size()), imus = static_cast<Index>(signals.imus);
+  Eigen::MatrixXcd directions = Eigen::MatrixXcd::Zero(size, kAxes * imus);
+  Eigen::MatrixXd counts(size, size);
+  for (Index i = 0; i < size; ++i) {
+    const auto owner = static_cast<Index>(signals.owners[static_cast<std::size_t>(i)]);
+    if (i < imus) directions.block<1, 3>(i, kAxes * i) = up[static_cast<std::size_t>(i)].transpose();
+    for (Index j = 0; j < size; ++j)
+      counts(i, j) = std::max(1.0, counts_(owner, static_cast<Index>(signals.owners[static_cast<std::size_t>(j)])));
   }
-  return result;
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    for (Index i = imus; i < size; ++i)
+      directions(i, kAxes * static_cast<Index>(signals.owners[static_cast<std::size_t>(i)]) + 3 + (i - imus) % 3) =
+          modulation_.s()[static_cast<Index>(k)];
+    signals.spectra.emplace_back(directions * sums_[k] * directions.adjoint());
+    signals.spectra.back().array() /= counts.array();
+  }
+  return signals;
 }
 
-std::vector<BodyOverWheel> findBodiesOverWheels(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand& band,
-                                                const std::vector<double>& rates,
-                                                const std::vector<bool>& may_serve_several) {
-  const Pairing pairing(spectra, band, rates);
+std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const std::vector<double>& rates) {
+  const Pairing pairing(signals, rates);
   const std::vector<std::optional<Response>> bodies = findBodies(pairing);
-  const Eigen::MatrixXd push = pushOf(bodies);
-  const Eigen::RowVectorXd hardest = push.cwiseAbs().colwise().maxCoeff();
-  std::vector<BodyOverWheel> pairs;
-  std::vector<std::size_t> served(rates.size(), 0);
+  const Eigen::MatrixXd push = pushOf(bodies, signals.imus);
+  std::vector<BodyOverWheel> all, pairs;
+  std::vector<std::size_t> served(signals.imus, 0);
   for (Index wheel = 0; wheel < push.cols(); ++wheel) {
-    std::optional<BodyOverWheel> best;
-    for (Index body = 0; body < push.rows(); ++body) {
-      const double here = push(body, wheel);
-      if (here == 0.0 || (best && std::abs(here) <= std::abs(push(static_cast<Index>(best->body), wheel)))) continue;
-      // An IMU that serves one wheel alone is pushed by it as no other is.
-      const Eigen::RowVectorXd share = push.row(body).cwiseAbs().array() / hardest.array().max(1e-300);
-      const auto place = static_cast<std::size_t>(body);
-      if (!may_serve_several[place] && share[wheel] < share.maxCoeff()) continue;
-      best = BodyOverWheel{place,
-                           static_cast<std::size_t>(wheel),
-                           here < 0.0,
-                           true,
-                           bodies[place]->explained,
-                           0.0,
-                           0.0,
-                           bodies[place]->delay};
-    }
-    if (!best) continue;
-    pairs.push_back(*best);
-    ++served[best->body];
+    const std::optional<std::size_t> signal = bodyOver(wheel, push, signals, bodies);
+    if (!signal) continue;
+    const std::size_t body = signals.owners[*signal];
+    const bool is_reversed = push(static_cast<Index>(body), wheel) < 0.0;
+    all.push_back({body, static_cast<std::size_t>(wheel), is_reversed, true, bodies[body]->explained, 0.0, 0.0,
+                   bodies[body]->delay});
+    ++served[body];
   }
-  const std::vector<BodyOverWheel> all = pairs;
-  pairs.clear();
   for (BodyOverWheel pair : all) {
     pair.is_own = served[pair.body] == 1;
-    if (!pair.is_own || describeStrut(spectra, band, all, pairing, pair)) pairs.push_back(pair);
+    if (!pair.is_own || describeStrut(all, pairing, pair)) pairs.push_back(pair);
   }
   return pairs;
 }

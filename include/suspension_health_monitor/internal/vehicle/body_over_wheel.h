@@ -10,14 +10,27 @@
 
 namespace suspension_health_monitor {
 
-/// Spectra of what several IMUs read, all axes, and between all of them: means over half overlapping blocks of 8 s
-/// under Hann's window, each IMU on its own stamps (FourierIntegrals). Cost per reading: O(bins), no memory.
+/// What an IMU measures in its own axes: acceleration [m/s^2], then angular rate [rad/s], 0 without a gyro.
+using SixAxes = Eigen::Matrix<double, 6, 1>;
+
+/// Spectra of signals and between them.
+struct ImuSignals {
+  BlockBand band;
+  std::vector<Eigen::MatrixXcd> spectra = {};  ///< by bin of the band, signals by signals
+  /// By signal the IMU: first one of each along the axis that points up [m/s^2], then three of each IMU with a gyro,
+  /// angular accelerations [rad/s^2].
+  std::vector<std::size_t> owners = {};
+  std::size_t imus = 0;
+};
+
+/// Spectra of what several IMUs measure, in all axes, and between all of them: means over half overlapping blocks of
+/// 8 s under Hann's window, each IMU on its own stamps (FourierIntegrals). Cost per reading: O(bins), no memory.
 class ImuSpectra {
  public:
   explicit ImuSpectra(std::size_t imus);
 
-  /// Stamps of an IMU increase; a reading that does not is left out.
-  void push(std::size_t imu, Stamp stamp, const Eigen::Vector3d& acceleration);
+  /// Stamps of an IMU increase; a reading that does not is left out, and one that is not finite.
+  void push(std::size_t imu, Stamp stamp, const SixAxes& reading);
 
   /// Another drive.
   void restart();
@@ -30,11 +43,8 @@ class ImuSpectra {
   /// @return rms along a direction in the axes of an IMU between two frequencies [m/s^2].
   double rms(std::size_t imu, const Eigen::Vector3d& direction, double from_hz, double to_hz) const;
 
-  /// @param up  of each IMU, in its axes.
-  /// @return by bin the spectra along these directions, between all IMUs, [m^2/s^4] per bin.
-  std::vector<Eigen::MatrixXcd> along(const std::vector<Eigen::Vector3d>& up) const;
-
-  const BlockBand& band() const { return band_; }
+  /// @param up  of each IMU, in its axes; 0: it is left out.  @param has_gyro  by IMU.
+  ImuSignals along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const;
 
  private:
   struct Stream {
@@ -49,7 +59,7 @@ class ImuSpectra {
   std::vector<Stream> streams_;
   std::optional<Stamp> origin_;
   long next_half_ = 1;
-  std::vector<Eigen::MatrixXcd> sums_;  // by bin, of three axes by IMU
+  std::vector<Eigen::MatrixXcd> sums_;  // by bin, of six axes by IMU
   Eigen::MatrixXd counts_;              // blocks that both IMUs have
 };
 
@@ -68,13 +78,11 @@ struct BodyOverWheel {
 /// Which IMUs are those of bodies, and over which wheels. A wheel shakes far more than the body above it, and what the
 /// body does is what all wheels make of it through springs and dampers, (B20) in doc/equations.md: of the body at any
 /// point i, with accelerations,
-///     z_i'' = sum over wheels j of (b1_ij / s + b0_ij / s^2) w_j'' - (a_1 / s + a_0 / s^2) z_i''.
-/// The damper of a wheel pushes no point harder than the one above it: b1_ij is largest there.
-/// @param spectra  as ImuSpectra::along().  @param rates  by IMU [Hz].
-/// @param may_serve_several  by IMU: it has a gyro, so that it may tell what the body does above several wheels.
+///     z_i'' = sum over wheels j of (b1_ij / s + b0_ij / s^2) w_j'' - (a_1 / s + a_0 / s^2) z_i'',
+/// and likewise of its angular accelerations. The damper of a wheel pushes no point harder than the one above it: b1_ij
+/// is largest there. An IMU with a gyro may serve several wheels, of which one may turn it and push it by nothing.
+/// @param rates  by IMU [Hz].
 /// @return a pair for each wheel, by the wheels' places.
-std::vector<BodyOverWheel> findBodiesOverWheels(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand& band,
-                                                const std::vector<double>& rates,
-                                                const std::vector<bool>& may_serve_several);
+std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const std::vector<double>& rates);
 
 }  // namespace suspension_health_monitor
