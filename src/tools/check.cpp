@@ -107,6 +107,7 @@ void Checked::read(ImuBags bags, const std::vector<BagTopic>& asked) {
     };
     if (!bag.topics.empty()) readTopics(bag, {take, {}});
     spectra->restart();
+    for (CheckedImu& imu : imus) imu.survey.restart();
   }
 }
 

@@ -220,14 +220,18 @@ std::optional<std::size_t> bodyOver(Index wheel, const Eigen::MatrixXd& push, co
 bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairing, BodyOverWheel& pair) {
   const ImuSignals& given = pairing.signals();
   const Index imus = given.spectra.front().rows(), struts = static_cast<Index>(pairs.size());
-  Eigen::MatrixXd signals = Eigen::MatrixXd::Identity(imus + struts, imus);  // the IMUs, then w'' - z'' of every strut
-  for (Index j = 0; j < struts; ++j) {
-    const BodyOverWheel& each = pairs[static_cast<std::size_t>(j)];
-    signals(imus + j, static_cast<Index>(each.wheel)) = each.is_reversed ? -1.0 : 1.0;
-    signals(imus + j, static_cast<Index>(each.body)) = -1.0;
-  }
+  Eigen::MatrixXcd signals =
+      Eigen::MatrixXcd::Identity(imus + struts, imus);  // the IMUs, then w'' - z'' of every strut
   std::vector<Eigen::MatrixXcd> all;
-  for (const Eigen::MatrixXcd& each : given.spectra) all.emplace_back(signals * each * signals.transpose());
+  for (const Eigen::MatrixXcd& each : given.spectra) {
+    const double omega = given.band.omega(given.band.first + static_cast<int>(all.size()));
+    for (Index j = 0; j < struts; ++j) {
+      const BodyOverWheel& of = pairs[static_cast<std::size_t>(j)];
+      signals(imus + j, static_cast<Index>(of.wheel)) = of.is_reversed ? -1.0 : 1.0;
+      signals(imus + j, static_cast<Index>(of.body)) = -std::polar(1.0, omega * of.delay);
+    }
+    all.emplace_back(signals * each * signals.adjoint());
+  }
   const SpectralFit fit(all, given.band);
   const Eigen::ArrayXcd &s = fit.s(), late = (s * pair.delay).exp();
   std::vector<Term> terms{{pair.body, -s * late}};

@@ -14,11 +14,14 @@ void ImuSurvey::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   if (first_.size() < kFewest) return;
   std::vector<Stamp> spacings;
   for (std::size_t i = 1; i < first_.size(); ++i) spacings.push_back(first_[i].first - first_[i - 1].first);
-  gates_.assign(3, StreamGate(std::max(Stamp(1), medianInPlace(spacings))));
+  const Stamp period = std::max(Stamp(1), medianInPlace(spacings));
+  gates_.assign(3, StreamGate(period));
+  period_.add(toSeconds(period));
   for (const auto& [time, reading] : std::exchange(first_, {})) judge(time, reading);
 }
 
 void ImuSurvey::judge(Stamp stamp, const Eigen::Vector3d& acceleration) {
+  follow(stamp);
   bool passes = true;
   for (int i = 0; i < 3; ++i) {
     const double reading = acceleration[i];
@@ -31,9 +34,16 @@ void ImuSurvey::judge(Stamp stamp, const Eigen::Vector3d& acceleration) {
   if (passes) gravity_.add(stamp, acceleration);
 }
 
-double ImuSurvey::lost() const {
-  const auto lost = static_cast<double>(clock().lost());
-  return lost / (lost + static_cast<double>(messages_));
+void ImuSurvey::follow(Stamp stamp) {
+  const double spacing = last_ ? toSeconds(stamp - *last_) : 0.0;
+  last_ = stamp;
+  taken_ += 1.0;
+  if (spacing <= 0.0) return;
+  const double periods = std::max(1.0, std::round(spacing / period_.mean()));
+  if (periods > kSignalTuning.longest_batch) return;
+  jitter_.add(square(spacing / period_.mean() - periods));
+  lost_ += periods - 1.0;
+  if (periods == 1.0) period_.add(spacing);
 }
 
 bool ImuSurvey::isStill() const {

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/signal/stream_gate.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"
@@ -20,6 +22,9 @@ class ImuSurvey {
   /// @param acceleration  in the IMU's axes [m/s^2].
   void add(Stamp stamp, const Eigen::Vector3d& acceleration);
 
+  /// The next reading belongs to another drive.
+  void restart() { last_.reset(); }
+
   /// A message that says that it carries no acceleration.
   void addNotMeasured() { ++not_measured_; }
 
@@ -29,18 +34,18 @@ class ImuSurvey {
   std::uint64_t messages() const { return messages_; }
   std::uint64_t notMeasured() const { return not_measured_; }
   const RejectCounts& rejected(int axis) const { return gates_[axis].rejected(); }
-  double rate() const { return 1.0 / clock().period(); }                 ///< [Hz]
-  double jitter() const { return clock().jitter() / clock().period(); }  ///< standard deviation of spacings, over T
-  double lost() const;                                                   ///< share of readings [-]
-  double noise(int axis) const { return noise_[axis].deviation(); }      ///< white, at most [m/s^2]
-  double largest(int axis) const { return largest_[axis]; }              ///< magnitude [m/s^2]
-  bool isStill() const;                                                  ///< all axes read the same again and again
+  double rate() const { return 1.0 / period_.mean(); }               ///< [Hz]
+  double jitter() const { return std::sqrt(jitter_.mean()); }        ///< standard deviation of spacings, over T
+  double lost() const { return lost_ / (lost_ + taken_); }           ///< share of readings, pauses left out [-]
+  double noise(int axis) const { return noise_[axis].deviation(); }  ///< white, at most [m/s^2]
+  double largest(int axis) const { return largest_[axis]; }          ///< magnitude [m/s^2]
+  bool isStill() const;                                              ///< all axes read the same again and again
 
   /// @return of the axis that gravity is nearest to; nothing: it is not in the readings, or they are too few.
   std::optional<MountClaim::Finding> gravity() const;
 
  private:
-  const StreamClock& clock() const { return gates_.front().clock(); }
+  void follow(Stamp stamp);
   void judge(Stamp stamp, const Eigen::Vector3d& acceleration);
 
   std::uint64_t messages_ = 0, not_measured_ = 0;
@@ -49,6 +54,10 @@ class ImuSurvey {
   std::vector<WhiteLevel> noise_ = std::vector<WhiteLevel>(3, WhiteLevel(1.0));
   std::array<double, 3> largest_{};
   MountClaim gravity_;
+  std::optional<Stamp> last_;
+  RunningMean period_{1.0};  // of spacings without a gap [s]
+  RunningMean jitter_{1.0};  // squared distance of spacings from whole periods, over T
+  double lost_ = 0.0, taken_ = 0.0;
 };
 
 }  // namespace suspension_health_monitor
