@@ -153,7 +153,7 @@ std::string sentenceOf(const BodyOverWheel& pair, const Checked& checked) {
                      checked.imus[pair.wheel].topic +
                      formatted(": %.0f %% of its motion by all wheels found", 100.0 * pair.explained);
   if (pair.is_own)
-    text += formatted(", bounce %.2f Hz, damping ratio %.2f, delay %+.1f ms",
+    text += formatted(", bounce about %.2f Hz, damping ratio about %.2f, delay %+.1f ms",
                       std::sqrt(pair.stiffness_to_mass) / (2.0 * M_PI),
                       pair.damping_to_mass / (2.0 * std::sqrt(pair.stiffness_to_mass)), 1e3 * pair.delay);
   if (pair.is_reversed)
@@ -239,7 +239,8 @@ void check(const Arguments& arguments) {
   add("end", po::value<double>()->default_value(HUGE_VAL, "its end"), "[s] after the beginning of each bag");
   add("write", po::value<std::string>(), "YAML file for the other commands: settings of a strut, or a vehicle file");
   add("json", po::value<std::string>(), "write the result as JSON");
-  const auto values = parse(arguments, "check BAG... [OPTION]...", description, "bag");
+  const auto values = parse(
+      arguments, "check BAG... [--vehicle FILE | --sprung-topic T --unsprung-topic T] [OPTION]...", description, "bag");
   if (!values) return;
   requireSeparateFiles(*values, {"bag", kVehicle}, {"write", "json"});
   std::optional<TextFile> written = outputFile(*values, "write"), findings = outputFile(*values, "json");

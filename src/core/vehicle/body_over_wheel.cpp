@@ -12,7 +12,9 @@ namespace {
 
 // Blocks that resolve 0.25 Hz, the slowest bounce there is, and reach to 20 Hz, beyond the wheel's hop.
 constexpr double kLength = 8.0, kHighest = 20.0;  // [s], [Hz]
-constexpr double kShake = 5.0;                    // [Hz]: above the bounce, below the hop
+// What leaks into the lowest bins would count most, since it is integrated twice: fits begin at 0.5 Hz.
+constexpr Eigen::Index kSkipped = 2;  // bins
+constexpr double kShake = 5.0;        // [Hz]: above the bounce, below the hop
 
 // Delays of the body's clock that are tried: the farthest that drivers make, in steps whose phase at the hop is small.
 constexpr double kFarthestDelay = 0.04, kDelayStep = 0.004;  // [s]
@@ -59,7 +61,7 @@ class SpectralFit {
     const Eigen::ArrayXd weight = (power + power.mean()).inverse();
     const auto product = [&](const Term& a, const Term& b) {
       double sum = 0.0;
-      for (Index k = 0; k < bins; ++k)
+      for (Index k = kSkipped; k < bins; ++k)
         sum += weight[k] * (std::conj(a.weight[k]) * b.weight[k] *
                             at(k)(static_cast<Index>(b.signal), static_cast<Index>(a.signal)))
                                .real();
