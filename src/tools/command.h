@@ -43,6 +43,7 @@ void health(const Arguments& arguments);
 void compare(const Arguments& arguments);
 void diagnose(const Arguments& arguments);
 void effects(const Arguments& arguments);
+void check(const Arguments& arguments);
 void horizon(const Arguments& arguments);
 void options(const Arguments& arguments);
 

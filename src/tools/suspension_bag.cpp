@@ -15,6 +15,7 @@ namespace po = boost::program_options;
 
 constexpr std::array kCommands{
     Command{"simulate", "write a simulated drive into a bag", &simulate},
+    Command{"check", "is the data any good, and which IMU is which", &check},
     Command{"identify", "damping/mass and stiffness/mass from recorded drives", &identify},
     Command{"health", "what the monitor would have said over recorded drives, and when", &health},
     Command{"compare", "how far a model is from the measurements, and where it fails", &compare},

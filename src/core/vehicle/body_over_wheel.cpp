@@ -1,0 +1,376 @@
+#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+// Blocks that resolve 0.25 Hz, the slowest bounce there is, and reach to 20 Hz, beyond the wheel's hop.
+constexpr double kLength = 8.0, kHighest = 20.0;  // [s], [Hz]
+// What leaks into the lowest bins would count most, since it is integrated twice: fits begin at 0.5 Hz.
+constexpr Eigen::Index kSkipped = 2;  // bins
+constexpr double kShake = 5.0;        // [Hz]: above the bounce, below the hop
+
+// Delays of the body's clock that are tried: the farthest that drivers make, in steps whose phase at the hop is small.
+constexpr double kFarthestDelay = 0.04, kDelayStep = 0.004;  // [s]
+
+using Index = Eigen::Index;
+
+constexpr int kAxes = SixAxes::RowsAtCompileTime;
+constexpr double kTiny = 1e-300;  // instead of dividing by 0
+
+BlockBand bandOfCheck() {
+  BlockBand band(kLength, kLength);
+  band.last = static_cast<int>(kHighest * kLength);
+  return band;
+}
+
+/// A regressor: a signal times a function of s.
+struct Term {
+  std::size_t signal;
+  Eigen::ArrayXcd weight;
+};
+
+struct LinearFit {
+  Eigen::VectorXd parameters;
+  double left = 1.0;  ///< share of the output that is not explained
+};
+
+/// Least squares of one IMU's signal by terms with real parameters, in the frequency domain.
+class SpectralFit {
+ public:
+  SpectralFit(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand& band) : spectra_(spectra) {
+    s_.resize(static_cast<Index>(spectra.size()));
+    for (Index k = 0; k < s_.size(); ++k) s_[k] = {0.0, band.omega(band.first + static_cast<int>(k))};
+  }
+
+  const Eigen::ArrayXcd& s() const { return s_; }
+
+  /// @param bins  the first ones, that are used.
+  LinearFit operator()(const Term& output, const std::vector<Term>& terms, Index bins) const {
+    const auto n = static_cast<Index>(terms.size());
+    const auto y = static_cast<Index>(output.signal);
+    Eigen::ArrayXd power(bins);
+    for (Index k = 0; k < bins; ++k) power[k] = at(k)(y, y).real();
+    // Every bin counts by its share of the motion, those that are nearly silent by less.
+    const Eigen::ArrayXd weight = (power + power.mean()).inverse();
+    const auto product = [&](const Term& a, const Term& b) {
+      double sum = 0.0;
+      for (Index k = kSkipped; k < bins; ++k)
+        sum += weight[k] * (std::conj(a.weight[k]) * b.weight[k] *
+                            at(k)(static_cast<Index>(b.signal), static_cast<Index>(a.signal)))
+                               .real();
+      return sum;
+    };
+    Eigen::MatrixXd normal(n, n);
+    Eigen::VectorXd right(n);
+    for (Index p = 0; p < n; ++p) {
+      right[p] = product(terms[static_cast<std::size_t>(p)], output);
+      for (Index q = 0; q <= p; ++q)
+        normal(p, q) = normal(q, p) = product(terms[static_cast<std::size_t>(p)], terms[static_cast<std::size_t>(q)]);
+    }
+    const Eigen::VectorXd scale = normal.diagonal().cwiseMax(kTiny).cwiseSqrt().cwiseInverse();
+    LinearFit fit;
+    fit.parameters = scale.asDiagonal() * solveSymmetric(scale.asDiagonal() * normal * scale.asDiagonal(),
+                                                         Eigen::MatrixXd(scale.cwiseProduct(right)));
+    fit.left = 1.0 - fit.parameters.dot(right) / product(output, output);
+    return fit;
+  }
+
+ private:
+  const Eigen::MatrixXcd& at(Index k) const { return spectra_[static_cast<std::size_t>(k)]; }
+
+  const std::vector<Eigen::MatrixXcd>& spectra_;
+  Eigen::ArrayXcd s_;
+};
+
+/// What the wheels make of one signal.
+struct Response {
+  std::vector<std::size_t> wheels;
+  std::vector<double> damping;  // b1 of each wheel [1/s]
+  std::vector<double> worth;    // share of the motion that is unexplained without it
+  double explained = 0.0, delay = 0.0;
+};
+
+class Pairing {
+ public:
+  Pairing(const ImuSignals& signals, const std::vector<double>& rates)
+      : signals_(signals), fit_(signals.spectra, signals.band), rates_(rates), shake_(signals.imus, 0.0) {
+    for (std::size_t k = 0; k < signals.spectra.size(); ++k)
+      if (signals.band.omega(signals.band.first + static_cast<int>(k)) >= 2.0 * M_PI * kShake)
+        for (std::size_t i = 0; i < shake_.size(); ++i)
+          shake_[i] += signals.spectra[k](static_cast<Index>(i), static_cast<Index>(i)).real();
+  }
+
+  const ImuSignals& signals() const { return signals_; }
+  /// An IMU that was silent shakes nothing, and is shaken by nothing.
+  bool shakesMore(std::size_t wheel, std::size_t body) const {
+    return shake_[body] > 0.0 && shake_[wheel] > kClearlyMore * shake_[body];
+  }
+
+  /// @return how a signal moves over wheels.
+  Response respond(std::size_t signal, const std::vector<std::size_t>& wheels) const {
+    Response best{wheels, std::vector<double>(wheels.size()), std::vector<double>(wheels.size())};
+    if (wheels.empty()) return best;
+    double delay = 0.0;
+    LinearFit nearest;
+    for (double tried = -kFarthestDelay; tried < kFarthestDelay + kDelayStep / 2.0; tried += kDelayStep) {
+      const LinearFit found = fit(signal, wheels, tried);
+      if (found.left < nearest.left) nearest = found, delay = tried;
+    }
+    if (nearest.parameters.size() == 0) return best;  // a signal that is 0
+    const double alone = fit(signal, {}, delay).left;
+    best.explained = 1.0 - nearest.left / alone;
+    best.delay = delay;
+    for (std::size_t j = 0; j < wheels.size(); ++j) {
+      best.damping[j] = nearest.parameters[static_cast<Index>(2 + 2 * j)];
+      std::vector<std::size_t> others = wheels;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
+      best.worth[j] = (fit(signal, others, delay).left - nearest.left) / alone;
+    }
+    return best;
+  }
+
+  /// The slowest IMU ends the band.
+  Index bins(std::size_t signal, const std::vector<std::size_t>& wheels) const {
+    double rate = rates_[signals_.owners[signal]];
+    for (const std::size_t wheel : wheels) rate = std::min(rate, rates_[wheel]);
+    const int last = std::min(signals_.band.last, static_cast<int>(kBlockTuning.usable * signals_.band.length * rate));
+    return std::max(1, last - signals_.band.first + 1);
+  }
+
+ private:
+  LinearFit fit(std::size_t signal, const std::vector<std::size_t>& wheels, double delay) const {
+    const Eigen::ArrayXcd &s = fit_.s(), late = (s * delay).exp();
+    std::vector<Term> terms{{signal, -late / s}, {signal, -late / s.square()}};
+    for (const std::size_t wheel : wheels) {
+      terms.push_back({wheel, s.inverse()});
+      terms.push_back({wheel, s.square().inverse()});
+    }
+    return fit_({signal, late}, terms, bins(signal, wheels));
+  }
+
+  const ImuSignals& signals_;
+  SpectralFit fit_;
+  std::vector<double> rates_;
+  std::vector<double> shake_;  // power above kShake
+};
+
+/// @return the responses of the signals of bodies; nothing of the others.
+std::vector<std::optional<Response>> findBodies(const Pairing& pairing) {
+  const ImuSignals& signals = pairing.signals();
+  std::vector<std::optional<Response>> found(signals.owners.size());
+  const auto respond = [&](std::size_t signal, bool to_wheels_alone) {
+    std::vector<std::size_t> wheels;
+    for (std::size_t j = 0; j < signals.imus; ++j)
+      if (pairing.shakesMore(j, signals.owners[signal]) && !(to_wheels_alone && found[j])) wheels.push_back(j);
+    std::optional<Response> response = pairing.respond(signal, wheels);
+    if (!(response->explained > kMajority)) response.reset();
+    return response;
+  };
+  for (std::size_t i = 0; i < signals.imus; ++i) found[i] = respond(i, false);
+  auto bodies = found;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (found[signals.owners[i]]) bodies[i] = respond(i, true);
+  return bodies;
+}
+
+/// @return b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
+Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies, std::size_t imus) {
+  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(static_cast<Index>(bodies.size()), static_cast<Index>(imus));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i]) continue;
+    for (std::size_t j = 0; j < bodies[i]->wheels.size(); ++j)
+      if (bodies[i]->worth[j] > kWorthHaving)
+        push(static_cast<Index>(i), static_cast<Index>(bodies[i]->wheels[j])) = bodies[i]->damping[j];
+  }
+  return push;
+}
+
+/// @return the signal of the body over a wheel: of the IMUs the one that it pushes hardest, as far as wheels explain
+/// what that reads; else one that it turns.
+std::optional<std::size_t> bodyOver(Index wheel, const Eigen::MatrixXd& push, const ImuSignals& signals,
+                                    const std::vector<std::optional<Response>>& bodies) {
+  const auto imus = static_cast<Index>(signals.imus);
+  const auto may_serve_several = [&](Index body) {
+    return std::count(signals.owners.begin(), signals.owners.end(), static_cast<std::size_t>(body)) > 1;
+  };
+  std::optional<std::size_t> best;
+  double hardest = 0.0;
+  for (Index body = 0; body < imus; ++body) {
+    if (push(body, wheel) == 0.0) continue;
+    // An IMU that serves one wheel alone is that wheel's more than any other's.
+    Index its_own = 0;
+    (push.row(body).cwiseAbs().array() / push.topRows(imus).cwiseAbs().colwise().maxCoeff().array().max(kTiny))
+        .maxCoeff(&its_own);
+    const auto place = static_cast<std::size_t>(body);
+    const double here = bodies[place]->explained * std::abs(push(body, wheel));
+    if (here > hardest && (its_own == wheel || may_serve_several(body))) best = place, hardest = here;
+  }
+  for (Index turn = imus; turn < push.rows() && !best; ++turn)
+    if (push(turn, wheel) != 0.0) best = static_cast<std::size_t>(turn);
+  return best;
+}
+
+/// Fits b1 and b0 of a strut to the motion of its own top by the travel of all struts.
+/// @return false: it is no damped spring.
+bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairing, BodyOverWheel& pair) {
+  const ImuSignals& given = pairing.signals();
+  const Index imus = given.spectra.front().rows(), struts = static_cast<Index>(pairs.size());
+  Eigen::MatrixXcd signals =
+      Eigen::MatrixXcd::Identity(imus + struts, imus);  // the IMUs, then w'' - z'' of every strut
+  std::vector<Eigen::MatrixXcd> all;
+  for (const Eigen::MatrixXcd& each : given.spectra) {
+    const double omega = given.band.omega(given.band.first + static_cast<int>(all.size()));
+    for (Index j = 0; j < struts; ++j) {
+      const BodyOverWheel& of = pairs[static_cast<std::size_t>(j)];
+      signals(imus + j, static_cast<Index>(of.wheel)) = of.is_reversed ? -1.0 : 1.0;
+      signals(imus + j, static_cast<Index>(of.body)) = -std::polar(1.0, omega * of.delay);
+    }
+    all.emplace_back(signals * each * signals.adjoint());
+  }
+  const SpectralFit fit(all, given.band);
+  const Eigen::ArrayXcd &s = fit.s(), late = (s * pair.delay).exp();
+  std::vector<Term> terms{{pair.body, -s * late}};
+  Index own = 0;
+  std::vector<std::size_t> wheels;
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    if (pairs[j].wheel == pair.wheel) own = static_cast<Index>(terms.size());
+    wheels.push_back(pairs[j].wheel);
+    terms.push_back({static_cast<std::size_t>(imus) + j, s.inverse()});
+    terms.push_back({static_cast<std::size_t>(imus) + j, s.square().inverse()});
+  }
+  const LinearFit found = fit({pair.body, late}, terms, pairing.bins(pair.body, wheels));
+  pair.delay += found.parameters[0];
+  pair.damping_to_mass = found.parameters[own];
+  pair.stiffness_to_mass = found.parameters[own + 1];
+  pair.explained = 1.0 - found.left;
+  return pair.damping_to_mass > 0.0 && pair.stiffness_to_mass > 0.0;
+}
+
+}  // namespace
+
+ImuSpectra::ImuSpectra(std::size_t imus)
+    : band_(bandOfCheck()),
+      modulation_(band_),
+      streams_(imus, {FourierIntegrals(band_, kAxes)}),
+      sums_(static_cast<std::size_t>(band_.size()),
+            Eigen::MatrixXcd::Zero(static_cast<Index>(kAxes * imus), static_cast<Index>(kAxes * imus))),
+      counts_(Eigen::MatrixXd::Zero(static_cast<Index>(imus), static_cast<Index>(imus))) {}
+
+void ImuSpectra::push(std::size_t imu, Stamp stamp, const SixAxes& reading) {
+  Stream& stream = streams_[imu];
+  if (!origin_) origin_ = stamp;
+  if ((stream.last && stamp <= *stream.last) || stamp < *origin_ || !reading.allFinite()) return;
+  stream.last = stamp;
+  stream.integrals.push(toSeconds(stamp - *origin_), reading.data());
+  long slowest = stream.integrals.openHalf(), fastest = 0;
+  for (const Stream& each : streams_) {
+    slowest = std::min(slowest, each.integrals.openHalf());
+    fastest = std::max(fastest, each.integrals.openHalf());
+  }
+  // An IMU that is silent holds the others up only as long as their half blocks are kept.
+  takeBlocks(std::max(slowest, fastest - FourierIntegrals::kHalves + 2));
+}
+
+void ImuSpectra::restart() {
+  long end = 0;
+  for (const Stream& each : streams_) end = std::max(end, each.integrals.openHalf());
+  takeBlocks(end);
+  for (Stream& each : streams_) {
+    each.integrals.restart();
+    each.last.reset();
+  }
+  origin_.reset();
+  next_half_ = 1;
+}
+
+void ImuSpectra::takeBlocks(long end) {
+  // After a pause the half blocks of the time before are gone.
+  next_half_ = std::max(next_half_, end - FourierIntegrals::kHalves);
+  for (; next_half_ < end; ++next_half_) {
+    const auto imus = static_cast<Index>(streams_.size());
+    Eigen::MatrixXcd values = Eigen::MatrixXcd::Zero(band_.size(), kAxes * imus);
+    Eigen::VectorXd is_there = Eigen::VectorXd::Zero(imus);
+    Eigen::ArrayXcd integrals(band_.spectrumSize()), bins(band_.size());
+    for (Index i = 0; i < imus; ++i) {
+      const FourierIntegrals& stream = streams_[static_cast<std::size_t>(i)].integrals;
+      if (stream.half(next_half_) == nullptr || stream.half(next_half_ - 1) == nullptr) continue;
+      is_there[i] = 1.0;
+      for (Index axis = 0; axis < kAxes; ++axis) {
+        stream.sumHalves(next_half_, axis, integrals);
+        modulation_.apply(0, integrals, bins);
+        values.col(kAxes * i + axis) = bins.matrix();
+      }
+    }
+    counts_ += is_there * is_there.transpose();
+    for (Index k = 0; k < values.rows(); ++k)
+      sums_[static_cast<std::size_t>(k)] += values.row(k).transpose() * values.row(k).conjugate();
+  }
+}
+
+double ImuSpectra::rms(std::size_t imu, const Eigen::Vector3d& direction, double from_hz, double to_hz) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    const double frequency = (band_.first + static_cast<int>(k)) / band_.length;
+    if (frequency < from_hz || frequency >= to_hz) continue;
+    const auto own = sums_[k].block<3, 3>(static_cast<Index>(kAxes * imu), static_cast<Index>(kAxes * imu));
+    sum += direction.dot(own.real() * direction);
+  }
+  // By Parseval under Hann's window, as WindowEstimate::setMotion().
+  return std::sqrt(2.0 * sum / std::max(1.0, blocks(imu)) / 0.375) / band_.length;
+}
+
+ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const {
+  ImuSignals signals{band_};
+  signals.imus = streams_.size();
+  for (std::size_t i = 0; i < signals.imus; ++i) signals.owners.push_back(i);
+  for (std::size_t i = 0; i < signals.imus; ++i)
+    if (has_gyro[i]) signals.owners.insert(signals.owners.end(), 3, i);
+  const auto size = static_cast<Index>(signals.owners.size()), imus = static_cast<Index>(signals.imus);
+  Eigen::MatrixXcd directions = Eigen::MatrixXcd::Zero(size, kAxes * imus);
+  Eigen::MatrixXd counts(size, size);
+  for (Index i = 0; i < size; ++i) {
+    const auto owner = static_cast<Index>(signals.owners[static_cast<std::size_t>(i)]);
+    if (i < imus) directions.block<1, 3>(i, kAxes * i) = up[static_cast<std::size_t>(i)].transpose();
+    for (Index j = 0; j < size; ++j)
+      counts(i, j) = std::max(1.0, counts_(owner, static_cast<Index>(signals.owners[static_cast<std::size_t>(j)])));
+  }
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    for (Index i = imus; i < size; ++i)
+      directions(i, kAxes * static_cast<Index>(signals.owners[static_cast<std::size_t>(i)]) + 3 + (i - imus) % 3) =
+          modulation_.s()[static_cast<Index>(k)];
+    signals.spectra.emplace_back(directions * sums_[k] * directions.adjoint());
+    signals.spectra.back().array() /= counts.array();
+  }
+  return signals;
+}
+
+std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const std::vector<double>& rates) {
+  const Pairing pairing(signals, rates);
+  const std::vector<std::optional<Response>> bodies = findBodies(pairing);
+  const Eigen::MatrixXd push = pushOf(bodies, signals.imus);
+  std::vector<BodyOverWheel> all, pairs;
+  std::vector<std::size_t> served(signals.imus, 0);
+  for (Index wheel = 0; wheel < push.cols(); ++wheel) {
+    const std::optional<std::size_t> signal = bodyOver(wheel, push, signals, bodies);
+    if (!signal) continue;
+    const std::size_t body = signals.owners[*signal];
+    const bool is_reversed = push(static_cast<Index>(body), wheel) < 0.0;
+    all.push_back({body, static_cast<std::size_t>(wheel), is_reversed, true, bodies[body]->explained, 0.0, 0.0,
+                   bodies[body]->delay});
+    ++served[body];
+  }
+  for (BodyOverWheel pair : all) {
+    pair.is_own = served[pair.body] == 1;
+    if (!pair.is_own || describeStrut(all, pairing, pair)) pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+}  // namespace suspension_health_monitor
