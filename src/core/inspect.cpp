@@ -56,14 +56,6 @@ LogNumber dampingRatioOf(const StrutEstimate& its) {
 
 ValueRange exponential(const ValueRange& logarithm) { return {std::exp(logarithm.low), std::exp(logarithm.high)}; }
 
-double limitOf(InspectedQuantity quantity, const InspectionLimits& limits) {
-  switch (quantity) {
-    case InspectedQuantity::kDampingRatio: return limits.damping_ratio;
-    case InspectedQuantity::kAdhesion: return limits.adhesion;
-    default: return limits.imbalance;
-  }
-}
-
 bool isImbalance(const InspectedNumber& number) { return number.struts.size() == 2; }
 
 // The worst and the best of all cars in the intervals; damping may be best in between.
@@ -86,16 +78,15 @@ ValueRange adhesionRange(const ValueRange& damping, const ValueRange& stiffness,
 
 class Inspector {
  public:
-  Inspector(const std::vector<InspectedStrut>& struts, const InspectionLimits& limits)
-      : struts_(struts), limits_(limits) {
+  Inspector(const std::vector<InspectedStrut>& struts, const InspectionLimits& limits) : struts_(struts) {
     for (std::size_t i = 0; i < struts.size(); ++i) {
-      add(InspectedQuantity::kDampingRatio, {i});
-      if (struts[i].wheel) add(InspectedQuantity::kAdhesion, {i});
+      add(InspectedQuantity::kDampingRatio, {i}, limits.damping_ratio);
+      if (struts[i].wheel) add(InspectedQuantity::kAdhesion, {i}, limits.adhesion);
     }
     for (const StrutPair& axle : axles())
       for (const InspectedQuantity quantity :
            {InspectedQuantity::kDampingImbalance, InspectedQuantity::kStiffnessImbalance})
-        add(quantity, {axle.first, axle.second});
+        add(quantity, {axle.first, axle.second}, limits.imbalance);
     certain_ = normalQuantile(kFalseFail / static_cast<double>(numbers_.size()));
   }
 
@@ -146,11 +137,11 @@ class Inspector {
     return pairs;
   }
 
-  void add(InspectedQuantity quantity, const std::vector<std::size_t>& of) {
+  void add(InspectedQuantity quantity, const std::vector<std::size_t>& of, double limit) {
     InspectedNumber number;
     number.quantity = quantity;
     number.struts = of;
-    number.limit = limitOf(quantity, limits_);
+    number.limit = limit;
     for (const std::size_t i : of)
       if (number.doubt.empty()) number.doubt = struts_[i].doubt;
     numbers_.push_back(std::move(number));
@@ -210,7 +201,6 @@ class Inspector {
   }
 
   const std::vector<InspectedStrut>& struts_;
-  const InspectionLimits& limits_;
   std::vector<InspectedNumber> numbers_;
   double certain_ = 0.0;
 };

@@ -9,8 +9,10 @@
 #include "html_page.h"
 #include "json_of.h"
 #include "long_work.h"
+#include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/fit/free_decay.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -18,8 +20,7 @@ namespace {
 namespace po = boost::program_options;
 using nlohmann::json;
 
-constexpr const char *kMassRatio = "mass-ratio", *kTyreToMass = "tyre-to-mass", *kWheelMass = "wheel-mass",
-                     *kTyreStiffness = "tyre-stiffness";  // names of options
+constexpr const char *kWheelMass = "wheel-mass", *kTyreStiffness = "tyre-stiffness", *kBounce = "bounce";  // options
 
 const char* nameOf(InspectionVerdict verdict) {
   constexpr std::array kNames{"passes", "fails", "cannot tell"};
@@ -50,37 +51,22 @@ std::optional<ValueRange> rangeOf(const po::variables_map& values, const std::st
   return range;
 }
 
-/// Wheel and tyre as the options give them: over the sprung mass, or in SI.
-struct AskedWheel {
-  explicit AskedWheel(const po::variables_map& values)
-      : mass_ratio(rangeOf(values, kMassRatio)),
-        tyre_to_mass(rangeOf(values, kTyreToMass)),
-        mass(rangeOf(values, kWheelMass)),
-        tyre(rangeOf(values, kTyreStiffness)) {
-    const auto refuse = [](const std::string& what) {
-      throw std::invalid_argument(what + ", must be one option for the mass of the wheel and one for the tyre");
-    };
-    if (mass_ratio && mass) refuse("--mass-ratio beside --wheel-mass");
-    if (tyre_to_mass && tyre) refuse("--tyre-to-mass beside --tyre-stiffness");
-    if ((mass_ratio || mass) != (tyre_to_mass || tyre))
-      refuse(mass_ratio || mass ? "the mass of the wheel without its tyre" : "a tyre without the mass of the wheel");
-  }
-
-  /// @throws std::invalid_argument  if a value in SI needs the sprung mass and it is not known.
-  std::optional<WheelRanges> over(const std::optional<double>& sprung_mass) const {
-    if (!mass_ratio && !mass) return std::nullopt;
-    if ((mass || tyre) && !sprung_mass)
-      throw std::invalid_argument(
-          "--wheel-mass or --tyre-stiffness without sprung_mass: set it, or give --mass-ratio "
-          "and --tyre-to-mass");
-    const auto divided = [&](const ValueRange& range) {
-      return ValueRange{range.low / *sprung_mass, range.high / *sprung_mass};
-    };
-    return WheelRanges{mass_ratio ? *mass_ratio : divided(*mass), tyre_to_mass ? *tyre_to_mass : divided(*tyre)};
-  }
-
-  std::optional<ValueRange> mass_ratio, tyre_to_mass, mass, tyre;
-};
+/// Wheel and tyre over the sprung mass of a strut, if they are asked for.
+/// @throws std::invalid_argument  for one without the other, and for what no vehicle has: in SI without sprung_mass, or
+/// the other way round.
+std::optional<WheelRanges> wheelOf(const po::variables_map& values, const std::optional<double>& sprung_mass) {
+  const std::optional<ValueRange> mass = rangeOf(values, kWheelMass), tyre = rangeOf(values, kTyreStiffness);
+  if (mass.has_value() != tyre.has_value())
+    throw std::invalid_argument("--wheel-mass and --tyre-stiffness, must be given both or none");
+  if (!mass) return std::nullopt;
+  const auto over = [&](const char* option, const ValueRange& range, const char* unit, double least, double most) {
+    const double unit_mass = sprung_mass.value_or(1.0);
+    for (const double value : {range.low, range.high})
+      requireIn(std::string("--") + option + " over the sprung mass", value / unit_mass, unit, least, most);
+    return ValueRange{range.low / unit_mass, range.high / unit_mass};
+  };
+  return WheelRanges{over(kWheelMass, *mass, "-", 0.003, 3.0), over(kTyreStiffness, *tyre, "1/s^2", 30.0, 1e5)};
+}
 
 InspectionLimits limitsOf(const po::variables_map& values) {
   const auto share = [&](const char* option) {
@@ -102,24 +88,39 @@ std::string doubtOf(const IdentifyResult& found, const std::vector<std::string>&
 
 /// What a command knows of a vehicle, and tells.
 struct Inspected {
-  Inspected(RecordedMonitor& recorded, const AskedWheel& wheel, const InspectionLimits& limits) {
-    const VehicleIdentification vehicle = recorded.identified();
-    const StrutPlaces places =
-        recorded.vehicle().isStrutAlone() ? StrutPlaces() : recorded.monitor().vehicle()->places();
-    for (const std::size_t i : recorded.vehicle().asked) {
-      const IdentifyResult& found = vehicle.struts[i];
-      struts.push_back({recorded.vehicle().isStrutAlone() ? "strut" : recorded.vehicle().names[i], found.estimate,
-                        places.empty() ? std::nullopt : std::optional(places[i]),
-                        wheel.over(recorded.strut(i).options().sprung_mass), doubtOf(found, recorded.mountFaults(i))});
-      seconds = static_cast<double>(found.samples) * found.sample_period;
-    }
-    result = inspect(struts, limits);
-  }
-
   std::vector<InspectedStrut> struts;
-  double seconds = 0.0;  ///< of data
+  double seconds;  ///< of data
   Inspection result;
 };
+
+/// By the live monitor's blocks, with what they know of the model's error beside.
+std::vector<InspectedStrut> strutsOf(RecordedMonitor& recorded) {
+  const VehicleIdentification vehicle = recorded.identified();
+  const AskedVehicle& asked = recorded.vehicle();
+  const StrutPlaces places = asked.isStrutAlone() ? StrutPlaces() : recorded.monitor().vehicle()->places();
+  std::vector<InspectedStrut> struts;
+  for (const std::size_t i : asked.asked)
+    struts.push_back({asked.isStrutAlone() ? "strut" : asked.names[i], recorded.overTheDrive(i),
+                      places.empty() ? std::nullopt : std::optional(places[i]), std::nullopt,
+                      doubtOf(vehicle.struts[i], recorded.mountFaults(i))});
+  return struts;
+}
+
+/// Of a body that was bounced by hand.
+Inspected bounced(BagOptions& options) {
+  TopicGaps gaps(options.settings.common.shell.input_timeout);
+  std::vector<Drive> drives;
+  double seconds = 0.0;
+  const std::vector<VehicleBag> bags = readDrives(options, gaps);
+  for (const VehicleBag& bag : bags) {
+    drives.push_back(bag.drive.struts.front());
+    seconds += static_cast<double>(drives.back().samples.size()) * options.period();
+  }
+  const StrutEstimate found = estimateFromFreeDecays(drives);
+  const std::string doubt = found.valid() ? "" : "no free decays: push harder, let go, wait until it rests, ten times";
+  printBags(options, bags, gaps);
+  return {{{"strut", found, std::nullopt, std::nullopt, doubt}}, seconds, {}};
+}
 
 using Row = std::array<std::string, 6>;
 
@@ -178,11 +179,8 @@ void print(const Inspected& inspected) {
 
 json toJson(const ValueRange& range) { return {range.low, range.high}; }
 
-json toJson(const Inspected& inspected, const RecordedMonitor& recorded) {
-  json whole{{"silent", recorded.gaps().toJson()},
-             {"verdict", nameOf(inspected.result.verdict)},
-             {"seconds", inspected.seconds},
-             {"numbers", json::array()}};
+json toJson(const Inspected& inspected) {
+  json whole{{"verdict", nameOf(inspected.result.verdict)}, {"seconds", inspected.seconds}, {"numbers", json::array()}};
   for (std::size_t i = 0; i < inspected.struts.size(); ++i)
     whole["bounce_frequency"][inspected.struts[i].name] = {{"value", inspected.struts[i].estimate.naturalFrequency()},
                                                            {"interval", toJson(inspected.result.frequencies[i])}};
@@ -234,18 +232,29 @@ std::string pageOf(const Inspected& inspected, const po::variables_map& values, 
 
 void inspectBags(const po::variables_map& values) {
   const InspectionLimits limits = limitsOf(values);
-  const AskedWheel wheel(values);
-  const BagOptions options = readBagOptions(values);
-  for (const std::size_t i : options.vehicle.asked) (void)wheel.over(options.settings.struts[i].monitor.sprung_mass);
+  const bool by_hand = values.count(kBounce) != 0;
+  if (by_hand && values.count(kVehicle) != 0)
+    throw std::invalid_argument("--bounce beside --vehicle, must be left out: give the topics of one strut");
+  BagOptions options = readBagOptions(values);
+  std::vector<std::optional<WheelRanges>> wheels;
+  for (const std::size_t i : options.vehicle.asked)
+    wheels.push_back(wheelOf(values, options.settings.struts[i].monitor.sprung_mass));
   std::optional<TextFile> findings = outputFile(values, "json");
   std::optional<HtmlPage> page;
   if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
-  RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), {});
-  recorded.read();
-  const Inspected inspected(recorded, wheel, limits);
-  if (findings) findings->commit(toJson(inspected, recorded).dump(2) + '\n');
+  Inspected inspected{};
+  if (by_hand) {
+    inspected = bounced(options);
+  } else {
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), {});
+    recorded.read();
+    inspected = {strutsOf(recorded), toSeconds(recorded.log(0).elapsed()), {}};
+    recorded.printInput();
+  }
+  for (std::size_t i = 0; i < wheels.size(); ++i) inspected.struts[i].wheel = wheels[i];
+  inspected.result = inspect(inspected.struts, limits);
+  if (findings) findings->commit(toJson(inspected).dump(2) + '\n');
   if (page) page->write(pageOf(inspected, values, options));
-  recorded.printInput();
   print(inspected);
   printWritten(values, {"json", kReport});
   if (inspected.result.verdict == InspectionVerdict::kFails) throw FailedInspection(summaryOf(inspected));
@@ -264,10 +273,11 @@ void inspect(const Arguments& arguments) {
       "[%] an axle with more fails, 1 - weaker/stronger of damping, of stiffness. Workshops: 15 to 30");
   add("least-adhesion", po::value<double>()->default_value(20.0, "20"),
       "[%] a wheel with less fails. EUSAMA: below 20 bad, below 40 weak");
-  add(kMassRatio, po::value<std::string>(), "VALUE or LOW..HIGH: unsprung over sprung mass [-], for the adhesion");
-  add(kTyreToMass, po::value<std::string>(), "VALUE or LOW..HIGH: tyre stiffness over sprung mass [1/s^2]");
-  add(kWheelMass, po::value<std::string>(), "the same as --mass-ratio in kg, with sprung_mass");
-  add(kTyreStiffness, po::value<std::string>(), "the same as --tyre-to-mass in N/m, with sprung_mass");
+  add(kWheelMass, po::value<std::string>(),
+      "VALUE or LOW..HIGH: unsprung mass over sprung mass [-], with sprung_mass in kg, for the adhesion");
+  add(kTyreStiffness, po::value<std::string>(),
+      "VALUE or LOW..HIGH: tyre stiffness over sprung mass [1/s^2], with sprung_mass in N/m, for the adhesion");
+  add(kBounce, "the vehicle stands, and its body was pushed by hand and let go: judge the free decays");
   add(kReport, po::value<std::string>(), "write DIR/report.html: one sheet of A4 to print");
   const auto values = parse(arguments, "inspect BAG... [OPTION]...", description, "bag");
   if (!values) return;

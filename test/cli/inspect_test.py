@@ -62,7 +62,7 @@ def test_what_is_near_a_limit_cannot_be_told(program, drives):
 
 def test_wheel_and_tyre_tell_the_adhesion(program, drives, tmp_path):
     path = tmp_path / "found.json"
-    options = ("--mass-ratio", "0.1..0.14", "--tyre-to-mass", "520")
+    options = ("--wheel-mass", "0.1..0.14", "--tyre-stiffness", "520")
     program("inspect", *drives["healthy"], "--json", path, *options)
     over_mass = [its for its in json.loads(path.read_text())["numbers"] if its["quantity"] == "adhesion"]
     assert len(over_mass) == 4
@@ -90,12 +90,11 @@ def test_one_strut_alone_has_its_damping_ratio(program, paper_bag, tmp_path):
 
 
 @pytest.mark.parametrize("options, words", [
-    (("--mass-ratio", "0.1"), ("without its tyre",)),
-    (("--tyre-to-mass", "500"), ("without the mass",)),
-    (("--mass-ratio", "0.1", "--wheel-mass", "40", "--tyre-to-mass", "500"), ("--mass-ratio beside --wheel-mass",)),
-    (("--mass-ratio", "0.2..0.1", "--tyre-to-mass", "500"), ("--mass-ratio 0.2..0.1", "LOW..HIGH")),
-    (("--mass-ratio", "x", "--tyre-to-mass", "500"), ("--mass-ratio x", "LOW..HIGH")),
-    (("--wheel-mass", "40", "--tyre-stiffness", "2e5"), ("without sprung_mass",)),
+    (("--wheel-mass", "0.1"), ("--wheel-mass and --tyre-stiffness", "both")),
+    (("--wheel-mass", "0.2..0.1", "--tyre-stiffness", "500"), ("--wheel-mass 0.2..0.1", "LOW..HIGH")),
+    (("--wheel-mass", "x", "--tyre-stiffness", "500"), ("--wheel-mass x", "LOW..HIGH")),
+    (("--wheel-mass", "0.1", "--tyre-stiffness", "2e5"), ("--tyre-stiffness over the sprung mass = 200000", "[30, 100000]")),
+    (("--bounce", "--vehicle", "v.yaml"), ("--bounce beside --vehicle",)),
     (("--most-imbalance", "0"), ("--most-imbalance = 0 [%]", "[1, 99]")),
     (("--least-damping-ratio", "-1"), ("--least-damping-ratio = -1", "above 0")),
 ])

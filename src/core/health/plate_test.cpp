@@ -7,9 +7,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kPlateAmplitude = 0.003;   // [m]: 6 mm from top to bottom
-constexpr double kHighestFrequency = 25.0;  // [Hz]
-constexpr int kFrequencies = 250;           // 0.1 Hz apart: a twentieth of the width of a wheel hop that is well damped
+constexpr double kPlateAmplitude = 0.003;  // [m]: 6 mm from top to bottom
+constexpr double kPlateHighest = 25.0;     // [Hz]
+constexpr int kPlateFrequencies = 250;     // 0.1 Hz apart: a twentieth of the width of a wheel hop that is well damped
 
 }  // namespace
 
@@ -23,8 +23,8 @@ double adhesionAt(double frequency, const QuarterCarRatios& car) {
 
 double leastAdhesion(const QuarterCarRatios& car) {
   double least = 1.0;
-  for (int i = 1; i <= kFrequencies; ++i)
-    least = std::min(least, adhesionAt(kHighestFrequency * i / kFrequencies, car));
+  for (int i = 1; i <= kPlateFrequencies; ++i)
+    least = std::min(least, adhesionAt(kPlateHighest * i / kPlateFrequencies, car));
   return least;
 }
 
