@@ -75,6 +75,12 @@ struct InspectedStrut {
   std::string doubt;                           ///< why the estimate is not to be trusted, in words; empty: it is
 };
 
+/// What workshops compare with; no law is meant.
+/// - Damping ratio: Lehr's, which theta testers (ASA, MAHA 2006) tell of an axle. At 0.1 a bounce still has
+///   exp(-2 pi 0.1) = 53 % of its amplitude a period later.
+/// - Imbalance: limits of the difference of adhesion in use are 15 and 20 % (Bilstein's mobile tester), and up to 30 %.
+///   Damping differs more than adhesion does, so this is the largest of them.
+/// - Adhesion: the classes that testers by EUSAMA's method print are below 20 % bad, below 40 % weak, 60 % good.
 struct InspectionLimits {
   double damping_ratio = 0.1;  ///< least [-]
   double imbalance = 0.3;      ///< most [-]

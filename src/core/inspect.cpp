@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 
 #include "suspension_health_monitor/internal/base/text.h"
-#include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
@@ -24,37 +22,47 @@ constexpr double kOwnShare = 0.2;
 // The most that a drive is made longer for, times.
 constexpr double kMostLonger = 16.0;
 
-// ln of a number that is above 0.
-struct LogNumber {
+// A number with normal errors.
+struct Uncertain {
   double value, stddev, model_stddev;  // stddev falls as data grow, that of the model does not
 
   ValueRange range(double sigmas, double longer) const {
     const double reach = sigmas * std::hypot(stddev / std::sqrt(longer), model_stddev);
-    return {value - reach, value + reach};
+    return {std::max(0.0, value - reach), value + reach};
   }
 };
 
 // The interval of a number: as many standard deviations either way, from so many times the data.
 using Interval = std::function<ValueRange(double sigmas, double longer)>;
 
-LogNumber dampingOf(const StrutEstimate& its) {
-  return {std::log(its.damping_to_mass), its.damping_to_mass_stddev / its.damping_to_mass,
-          its.damping_model_stddev / its.damping_to_mass};
+Uncertain dampingOf(const StrutEstimate& its) {
+  return {its.damping_to_mass, its.damping_to_mass_stddev, its.damping_model_stddev};
 }
 
-LogNumber stiffnessOf(const StrutEstimate& its) {
-  return {std::log(its.stiffness_to_mass), its.stiffness_to_mass_stddev / its.stiffness_to_mass,
-          its.stiffness_model_stddev / its.stiffness_to_mass};
+Uncertain stiffnessOf(const StrutEstimate& its) {
+  return {its.stiffness_to_mass, its.stiffness_to_mass_stddev, its.stiffness_model_stddev};
 }
 
 // How the model's errors of b1 and b0 go together is not known: at worst they add up.
-LogNumber dampingRatioOf(const StrutEstimate& its) {
-  const LogNumber b1 = dampingOf(its), b0 = stiffnessOf(its);
-  const double variance = square(b1.stddev) + square(b0.stddev) / 4.0 - its.correlation * b1.stddev * b0.stddev;
-  return {std::log(its.dampingRatio()), std::sqrt(variance), b1.model_stddev + b0.model_stddev / 2.0};
+Uncertain dampingRatioOf(const StrutEstimate& its) {
+  const double per_damping = 0.5 / std::sqrt(its.stiffness_to_mass), ratio = its.dampingRatio();
+  const double per_stiffness = 0.5 * ratio / its.stiffness_to_mass;
+  const double by_damping = per_damping * its.damping_to_mass_stddev;
+  const double by_stiffness = per_stiffness * its.stiffness_to_mass_stddev;
+  const double variance = square(by_damping) + square(by_stiffness) - 2.0 * its.correlation * by_damping * by_stiffness;
+  return {ratio, std::sqrt(variance),
+          per_damping * its.damping_model_stddev + std::abs(per_stiffness) * its.stiffness_model_stddev};
 }
 
-ValueRange exponential(const ValueRange& logarithm) { return {std::exp(logarithm.low), std::exp(logarithm.high)}; }
+ValueRange frequencyRange(const ValueRange& stiffness) {
+  return {std::sqrt(stiffness.low) / (2.0 * M_PI), std::sqrt(stiffness.high) / (2.0 * M_PI)};
+}
+
+// @return why nothing is known of a strut, in words.
+std::string doubtOf(const InspectedStrut& strut) {
+  if (!strut.doubt.empty() || strut.estimate.stiffness_to_mass > 0.0) return strut.doubt;
+  return "its stiffness is not above 0";
+}
 
 bool isImbalance(const InspectedNumber& number) { return number.struts.size() == 2; }
 
@@ -93,9 +101,8 @@ class Inspector {
   Inspection result() {
     Inspection result;
     for (const InspectedStrut& strut : struts_) {
-      LogNumber frequency = stiffnessOf(strut.estimate);
-      frequency = {std::log(strut.estimate.naturalFrequency()), frequency.stddev / 2.0, frequency.model_stddev / 2.0};
-      result.frequencies.push_back(strut.doubt.empty() ? exponential(frequency.range(kTwoSided95, 1.0)) : ValueRange());
+      result.frequencies.push_back(
+          doubtOf(strut).empty() ? frequencyRange(stiffnessOf(strut.estimate).range(kTwoSided95, 1.0)) : ValueRange());
     }
     for (InspectedNumber& number : numbers_)
       if (number.doubt.empty()) judge(number);
@@ -143,7 +150,7 @@ class Inspector {
     number.struts = of;
     number.limit = limit;
     for (const std::size_t i : of)
-      if (number.doubt.empty()) number.doubt = struts_[i].doubt;
+      if (number.doubt.empty()) number.doubt = doubtOf(struts_[i]);
     numbers_.push_back(std::move(number));
   }
 
@@ -152,36 +159,35 @@ class Inspector {
     const InspectedStrut& strut = struts_[number.struts.front()];
     if (isImbalance(number)) return imbalance(number);
     if (number.quantity == InspectedQuantity::kAdhesion) {
-      const LogNumber b1 = dampingOf(strut.estimate), b0 = stiffnessOf(strut.estimate);
+      const Uncertain b1 = dampingOf(strut.estimate), b0 = stiffnessOf(strut.estimate);
       const Interval interval = [=, wheel = *strut.wheel](double sigmas, double longer) {
-        return adhesionRange(exponential(b1.range(sigmas, longer)), exponential(b0.range(sigmas, longer)), wheel);
+        return adhesionRange(b1.range(sigmas, longer), b0.range(sigmas, longer), wheel);
       };
       const ValueRange typical = interval(0.0, 1.0);
       number.value = (typical.low + typical.high) / 2.0;
       return interval;
     }
-    const LogNumber ratio = dampingRatioOf(strut.estimate);
-    number.value = std::exp(ratio.value);
-    return [ratio](double sigmas, double longer) { return exponential(ratio.range(sigmas, longer)); };
+    const Uncertain ratio = dampingRatioOf(strut.estimate);
+    number.value = ratio.value;
+    return [ratio](double sigmas, double longer) { return ratio.range(sigmas, longer); };
   }
 
   // The model is the same on both sides: most of its error is in both struts alike and leaves their ratio as it is.
   Interval imbalance(InspectedNumber& number) const {
-    const StrutEstimate &left = struts_[number.struts[0]].estimate, &right = struts_[number.struts[1]].estimate;
-    const bool is_damping = number.quantity == InspectedQuantity::kDampingImbalance;
-    const MeasuredChange change = changeFrom(baselineOf(right, Stamp{}), left).change;
-    const std::optional<LogChange>& of = is_damping ? change.damping : change.stiffness;
-    const auto model = [&](const StrutEstimate& its) {
-      return (is_damping ? dampingOf(its) : stiffnessOf(its)).model_stddev;
+    const auto of = [&](std::size_t i) {
+      const StrutEstimate& its = struts_[i].estimate;
+      return number.quantity == InspectedQuantity::kDampingImbalance ? dampingOf(its) : stiffnessOf(its);
     };
-    const LogNumber ratio{std::abs(of->size), of->stddev, kOwnShare * std::hypot(model(left), model(right))};
-    number.weaker = number.struts[of->size < 0.0 ? 0 : 1];
-    const auto share = [](double logarithm) { return -std::expm1(-std::max(0.0, logarithm)); };
-    number.value = share(ratio.value);
-    return [=](double sigmas, double longer) {
-      const ValueRange range = ratio.range(sigmas, longer);
-      return ValueRange{share(range.low), share(range.high)};
+    const std::size_t left = number.struts[0], right = number.struts[1];
+    number.weaker = of(left).value < of(right).value ? left : right;
+    const Uncertain weaker = of(*number.weaker), stronger = of(*number.weaker == left ? right : left);
+    const double ratio = weaker.value / stronger.value;
+    const auto both = [&](double Uncertain::*error) {
+      return std::hypot(weaker.*error, ratio * stronger.*error) / stronger.value;
     };
+    const Uncertain imbalance{1.0 - ratio, both(&Uncertain::stddev), kOwnShare * both(&Uncertain::model_stddev)};
+    number.value = imbalance.value;
+    return [imbalance](double sigmas, double longer) { return imbalance.range(sigmas, longer); };
   }
 
   void judge(InspectedNumber& number) const {

@@ -142,7 +142,7 @@ std::vector<Row> rowsOf(const Inspected& inspected) {
     const bool is_ratio = number.quantity == InspectedQuantity::kDampingRatio, is_known = !std::isnan(number.value);
     const double unit = is_ratio ? 1.0 : 100.0;
     const char* const sign = is_ratio ? "" : " %";
-    const auto cell = [&](double value) { return formatted(is_ratio ? "%.3f" : "%.0f", unit * value); };
+    const auto cell = [&](double value) { return formatted(is_ratio ? "%.3f" : "%.1f", unit * value); };
     rows.push_back({nameOf(number.quantity), join(names, " / "), is_known ? cell(number.value) + sign : "-",
                     is_known ? cell(number.interval.low) + " to " + cell(number.interval.high) + sign : "-",
                     formatted("%s %.3g%s", names.size() == 2 ? "at most" : "at least", unit * number.limit, sign),
@@ -174,7 +174,7 @@ void print(const Inspected& inspected) {
     for (std::size_t i = 0; i + 1 < row.size(); ++i) std::printf("%-*s  ", widths[i], row[i].c_str());
     std::printf("%s\n", row.back().c_str());
   }
-  std::printf("\nthe vehicle %s\n%s\n", summaryOf(inspected).c_str(), kNoLegalTest);
+  std::printf("\nverdict: %s\n%s\n", summaryOf(inspected).c_str(), kNoLegalTest);
 }
 
 json toJson(const ValueRange& range) { return {range.low, range.high}; }
@@ -268,11 +268,11 @@ void inspect(const Arguments& arguments) {
   addBagOptions(description);
   auto add = description.add_options();
   add("least-damping-ratio", po::value<double>()->default_value(0.1, "0.1"),
-      "[-] a strut with less fails: Lehr's damping ratio, as theta testers tell it");
+      "[-] a strut with less fails. Lehr's damping ratio: at 0.1 a bounce keeps half its size each period");
   add("most-imbalance", po::value<double>()->default_value(30.0, "30"),
-      "[%] an axle with more fails, 1 - weaker/stronger of damping, of stiffness. Workshops: 15 to 30");
+      "[%] an axle with more fails: 1 - weaker/stronger of damping, of stiffness. Limits of adhesion in use: 15 to 30");
   add("least-adhesion", po::value<double>()->default_value(20.0, "20"),
-      "[%] a wheel with less fails. EUSAMA: below 20 bad, below 40 weak");
+      "[%] a wheel with less fails. Usual classes of EUSAMA testers: below 20 bad, below 40 weak");
   add(kWheelMass, po::value<std::string>(),
       "VALUE or LOW..HIGH: unsprung mass over sprung mass [-], with sprung_mass in kg, for the adhesion");
   add(kTyreStiffness, po::value<std::string>(),

@@ -27,7 +27,7 @@ def number(told, quantity, *struts):
 def test_a_healthy_vehicle_passes(program, drives, tmp_path):
     path = tmp_path / "found.json"
     text = program.succeed("inspect", *drives["healthy"], "--json", path)
-    assert "\nthe vehicle passes\nThis is no replacement of a legal test.\n" in text
+    assert "\nverdict: passes\nThis is no replacement of a legal test.\n" in text
     assert re.search(r"adhesion +front_left .* not asked\n", text)
     told = json.loads(path.read_text())
     assert told["verdict"] == "passes" and len(told["numbers"]) == 8
@@ -78,7 +78,7 @@ def test_the_page_is_one_sheet_without_a_script(program, drives, tmp_path):
     text = program.succeed("inspect", *drives["healthy"], "--report", page)
     assert text.endswith(f"wrote {page}/report.html\n")
     html = (page / "report.html").read_text()
-    assert "The vehicle <strong>passes</strong>" in html and "no replacement of a legal test" in html
+    assert "Verdict: <strong>passes</strong>" in html and "no replacement of a legal test" in html
     assert "<script" not in html and "@@" not in html and "size: A4" in html
     assert html.count("<tr>") == 1 + 4 + 4 + 8  # headings, frequencies, adhesion not asked, numbers
 

@@ -76,11 +76,13 @@ TEST(Inspection, TheDampingRatioIsThatOfTheStrutWithItsInterval) {
   const Inspection found = inspect({strutOf("strut", 3.0, 0.02)});
   const InspectedNumber& ratio = find(found, InspectedQuantity::kDampingRatio);
   EXPECT_NEAR(ratio.value, 3.0 / (2.0 * std::sqrt(60.0)), 1e-12);
-  // ln zeta = ln b1 - ln b0 / 2, errors independent.
-  EXPECT_NEAR(std::log(ratio.interval.high / ratio.value), 1.96 * 0.02 * std::sqrt(1.25), 1e-5);
+  // Relative errors of b1, and half of that of b0, independent.
+  EXPECT_NEAR(ratio.interval.high / ratio.value - 1.0, 1.96 * 0.02 * std::sqrt(1.25), 1e-5);
   EXPECT_EQ(ratio.verdict, InspectionVerdict::kPasses);
   EXPECT_EQ(found.verdict, InspectionVerdict::kPasses);
-  EXPECT_NEAR(found.frequencies[0].low * found.frequencies[0].high, 60.0 / (4.0 * M_PI * M_PI), 1e-9);
+  const ValueRange& frequency = found.frequencies[0];
+  EXPECT_NEAR(std::pow(frequency.high, 2) - std::pow(frequency.low, 2), 2.0 * 1.96 * 0.02 * 60.0 / (4.0 * M_PI * M_PI),
+              1e-4);
 }
 
 TEST(Inspection, LeftAndRightMayBeExchanged) {
@@ -101,7 +103,7 @@ TEST(Inspection, EqualStrutsHaveNoImbalance) {
   const InspectedNumber& number = find(inspect(axle(3.0, 3.0)), InspectedQuantity::kDampingImbalance);
   EXPECT_DOUBLE_EQ(number.value, 0.0);
   EXPECT_DOUBLE_EQ(number.interval.low, 0.0);
-  EXPECT_NEAR(number.interval.high, 1.0 - std::exp(-1.96 * 0.01 * std::sqrt(2.0)), 1e-5);
+  EXPECT_NEAR(number.interval.high, 1.96 * 0.01 * std::sqrt(2.0), 1e-5);
 }
 
 TEST(Inspection, PlacesTellLeftFromRight) {
@@ -116,8 +118,8 @@ TEST(Inspection, PlacesTellLeftFromRight) {
   EXPECT_EQ(number.weaker, 0U);
 }
 
-// At stddev s of a strut the ratio has s sqrt(2). What is between the limit's interval and the wider one cannot be
-// told, and so much longer a drive would tell.
+// At relative stddev s of a strut their ratio has s sqrt(2). What is between the limit's interval and the wider one
+// cannot be told, and so much longer a drive would tell.
 TEST(Inspection, WhatIsNearTheLimitIsDecidedByALongerDrive) {
   const auto number = [](double right, double stddev) {
     return find(inspect(axle(3.0, right, stddev)), InspectedQuantity::kDampingImbalance);
@@ -126,7 +128,7 @@ TEST(Inspection, WhatIsNearTheLimitIsDecidedByALongerDrive) {
   EXPECT_EQ(number(3.0 * 0.64, 0.01).verdict, InspectionVerdict::kFails);
   const InspectedNumber near = number(3.0 * 0.75, 0.04);
   EXPECT_EQ(near.verdict, InspectionVerdict::kCannotTell);
-  // ln(0.75/0.7) = 0.069 = 1.96 0.04 sqrt(2 / n): n = 2.6, so 4 of 2, 4, 8, 16.
+  // 0.75 - 0.7 = 1.96 0.75 0.04 sqrt(2 / n): n = 2.8, so 4 of 2, 4, 8, 16.
   ASSERT_TRUE(near.longer);
   EXPECT_DOUBLE_EQ(*near.longer, 4.0);
   EXPECT_FALSE(number(3.0 * 0.7001, 0.04).longer);
@@ -136,8 +138,7 @@ TEST(Inspection, AFailureIsCertainForAllNumbersTogether) {
   // Four numbers: each may fail by chance with 0.25 %, which is 2.81 standard deviations.
   const auto verdict = [](double sigmas) {
     const double stddev = 0.01 * std::sqrt(2.0);
-    return find(inspect(axle(3.0, 3.0 * 0.7 * std::exp(-sigmas * stddev))), InspectedQuantity::kDampingImbalance)
-        .verdict;
+    return find(inspect(axle(3.0, 3.0 * 0.7 / (1.0 + sigmas * stddev))), InspectedQuantity::kDampingImbalance).verdict;
   };
   EXPECT_EQ(verdict(2.75), InspectionVerdict::kCannotTell);
   EXPECT_EQ(verdict(2.85), InspectionVerdict::kFails);
@@ -148,8 +149,18 @@ TEST(Inspection, TheModelsErrorIsInTheDampingRatioAndNearlyCancelsInTheImbalance
   for (InspectedStrut& strut : struts) strut.estimate.damping_model_stddev = 0.1 * strut.estimate.damping_to_mass;
   const Inspection found = inspect(struts);
   const InspectedNumber& ratio = find(found, InspectedQuantity::kDampingRatio);
-  EXPECT_NEAR(std::log(ratio.interval.high / ratio.value), 1.96 * 0.1, 0.002);
+  EXPECT_NEAR(ratio.interval.high / ratio.value - 1.0, 1.96 * 0.1, 0.002);
   EXPECT_LT(find(found, InspectedQuantity::kDampingImbalance).interval.high, 0.05 + 1.96 * 0.1 / 2.0);
+}
+
+TEST(Inspection, ADeadDamperFails) {
+  std::vector<InspectedStrut> struts = axle(3.0, 1.0);
+  struts[1].estimate.damping_to_mass = -0.02;
+  struts[1].estimate.damping_to_mass_stddev = 0.2;
+  const Inspection found = inspect(struts);
+  EXPECT_EQ(find(found, InspectedQuantity::kDampingRatio, 1).verdict, InspectionVerdict::kFails);
+  EXPECT_EQ(find(found, InspectedQuantity::kDampingImbalance).verdict, InspectionVerdict::kFails);
+  EXPECT_EQ(find(found, InspectedQuantity::kDampingImbalance).weaker, 1U);
 }
 
 TEST(Inspection, AnEstimateInDoubtTellsNothing) {

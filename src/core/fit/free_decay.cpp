@@ -107,7 +107,9 @@ StrutEstimate estimateFromFreeDecays(const std::vector<Drive>& drives) {
   estimate.damping_model_stddev = kWorthHaving * theta[0];  // what is let pass as free
   estimate.stiffness_model_stddev = kWorthHaving * theta[1];
   estimate.correlation = covariance(0, 1) / std::sqrt(covariance(0, 0) * covariance(1, 1));
-  const bool is_known = estimate.damping_to_mass_stddev < kMostRelativeStddev * theta[0] &&
+  // A damper that is dead is known, too: by the b1 of a damping ratio of 0.1.
+  const double damping = std::max(theta[0], 0.2 * std::sqrt(theta[1]));
+  const bool is_known = estimate.damping_to_mass_stddev < kMostRelativeStddev * damping &&
                         estimate.stiffness_to_mass_stddev < kMostRelativeStddev * theta[1];
   estimate.doubt = is_known ? EstimateDoubt::kNone : EstimateDoubt::kNotExcited;
   return estimate;
