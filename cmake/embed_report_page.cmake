@@ -31,6 +31,13 @@ foreach(function searchTemplate vehicleTemplate healthTemplate)
 ")
 endforeach()
 
+file(READ ${FOLDER}/inspection.html page)
+string(APPEND functions "std::string_view inspectionTemplate() {
+  return R\"~page~(${page})~page~\";
+}
+
+")
+
 file(WRITE ${OUTPUT} "#include \"tools/html_page.h\"
 
 namespace suspension_health_monitor {

@@ -14,7 +14,7 @@ namespace suspension_health_monitor {
 struct SimulatedDrive;
 
 /// Exit statuses of suspension_bag, as promised to scripts.
-enum ExitStatus : int { kDone = 0, kWrongUsage = 2, kWrongInput = 3, kTooLittle = 4 };
+enum ExitStatus : int { kDone = 0, kFailed = 1, kWrongUsage = 2, kWrongInput = 3, kTooLittle = 4 };
 
 /// An input file that cannot be read, or is not what it should be: exit status 3.
 struct InputError : std::runtime_error {
@@ -26,11 +26,16 @@ struct TooLittleError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An inspected vehicle that fails: exit status 1.
+struct FailedInspection : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 using Arguments = std::vector<std::string>;
 
 /// One subcommand of suspension_bag: its file, its line in the help.
 /// run() gets what stands behind the subcommand's name. It throws std::invalid_argument or
-/// boost::program_options::error on wrong usage, InputError, or TooLittleError.
+/// boost::program_options::error on wrong usage, InputError, TooLittleError, or FailedInspection.
 struct Command {
   const char* name;
   const char* summary;
@@ -40,6 +45,7 @@ struct Command {
 void simulate(const Arguments& arguments);
 void identify(const Arguments& arguments);
 void health(const Arguments& arguments);
+void inspect(const Arguments& arguments);
 void compare(const Arguments& arguments);
 void diagnose(const Arguments& arguments);
 void effects(const Arguments& arguments);

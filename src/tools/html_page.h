@@ -22,6 +22,9 @@ class HtmlPage {
   /// @throws std::runtime_error  naming the file, if it cannot be written.
   void write(std::string_view page, const nlohmann::json& findings);
 
+  /// @param page  that is complete.
+  void write(const std::string& page) { file_.commit(page); }
+
  private:
   class Folder {
    public:
@@ -47,6 +50,9 @@ nlohmann::json shortened(nlohmann::json value);
 std::string_view searchTemplate();
 std::string_view vehicleTemplate();
 std::string_view healthTemplate();
+
+/// The page of an inspection, without a script, with "@@...@@" where its text goes.
+std::string_view inspectionTemplate();
 
 /// @param names  of the bags.  @param duration, period  of their samples [s].
 /// @return what a page was made from, in words.

@@ -45,6 +45,9 @@ class RecordedMonitor {
   /// @return what is known at the end.
   VehicleIdentification identified();
 
+  /// @return the estimate over all readings, with the model's error beside the standard deviations.
+  StrutEstimate overTheDrive(std::size_t strut) { return pipeline_.monitor()->overTheDrive(strut); }
+
   /// @return how the struts move one another, as it is known at the end.
   VehicleCoupling coupling() const;
 

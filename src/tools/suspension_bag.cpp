@@ -18,6 +18,7 @@ constexpr std::array kCommands{
     Command{"check", "is the data any good, and which IMU is which", &check},
     Command{"identify", "damping/mass and stiffness/mass from recorded drives", &identify},
     Command{"health", "what the monitor would have said over recorded drives, and when", &health},
+    Command{"inspect", "a verdict on a vehicle of which nothing is known beforehand", &inspect},
     Command{"compare", "how far a model is from the measurements, and where it fails", &compare},
     Command{"diagnose", "which physical effect the model misses, and how sure that is", &diagnose},
     Command{"effects", "the effects that diagnose and simulate know", &effects},
@@ -30,7 +31,8 @@ void printHelp(std::FILE* out) {
   for (const Command& command : kCommands) std::fprintf(out, "  %-10s %s\n", command.name, command.summary);
   std::fputs(
       "\nsuspension_bag help COMMAND tells more. Tables go to standard output, messages to standard error.\n"
-      "Exit status: 0 done, 2 wrong usage, 3 unreadable or wrong input, 4 too little or too poor input.\n",
+      "Exit status: 0 done, 1 inspect: the vehicle fails, 2 wrong usage, 3 unreadable or wrong input, 4 too little or "
+      "too poor input.\n",
       out);
 }
 
@@ -50,6 +52,8 @@ int run(const Command& command, const Arguments& arguments) {
     return fail(command.name, error, kWrongInput);
   } catch (const TooLittleError& error) {
     return fail(command.name, error, kTooLittle);
+  } catch (const FailedInspection& failed) {
+    return fail(command.name, failed, kFailed);
   } catch (const std::invalid_argument& error) {
     return fail(command.name, error, kWrongUsage);
   } catch (const po::invalid_option_value& error) {  // of those with a type, and that is always a number
