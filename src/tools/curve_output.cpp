@@ -12,7 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kRows = 6.0;             // of a table, or up to twice as many
+constexpr double kRows = 6.0;  // of a table, or up to twice as many
+constexpr int kTitleWidth = 15;
 constexpr double kNinetyPercent = 1.645;  // standard deviations
 
 /// @return 1, 2 or 5 times a power of ten, not above x > 0.
@@ -24,16 +25,15 @@ double roundedDown(double x) {
 /// @param shown  of the variable, in SI.
 void print(const char* title, const ForceCurve& curve, double shown, const std::optional<double>& mass) {
   if (curve.at.empty()) return void(std::printf("%s: the drives do not tell\n", title));
-  std::printf("%s  %-20s  rebound, force [%s]\n", title, "compression", mass ? "N" : "m/s^2");
+  std::printf("%-*s  %-20s  rebound, force [%s]\n", kTitleWidth, title, "compression", mass ? "N" : "m/s^2");
   const double most = std::max(-curve.at.front(), curve.at.back()), step = roundedDown(most / kRows);
   const auto cell = [&](double x) {
-    return curve.covers(x) ? formatted("%9.4g +- %-7.2g", mass.value_or(1.0) * curve.forceAt(x),
+    return curve.covers(x) ? formatted("%9.4g +- %.2g", mass.value_or(1.0) * curve.forceAt(x),
                                        mass.value_or(1.0) * kNinetyPercent * curve.stddevAt(x))
-                           : formatted("%9s%11s", "-", "");
+                           : std::string("        -");
   };
   for (int i = 1; i * step <= most; ++i)
-    std::printf("%*.4g  %s  %s\n", static_cast<int>(std::string(title).size()), i * step / shown,
-                cell(i * step).c_str(), cell(-i * step).c_str());
+    std::printf("%*.4g  %-20s  %s\n", kTitleWidth, i * step / shown, cell(i * step).c_str(), cell(-i * step).c_str());
 }
 
 json toJson(const char* variable, const ForceCurve& curve) {
@@ -59,7 +59,7 @@ std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<Iden
 
 void printCurves(const StrutCurves& curves, const std::optional<double>& mass) {
   print("damper at [m/s]", curves.damper, 1.0, mass);
-  print("spring at [mm] ", curves.spring, 1e-3, mass);
+  print("spring at [mm]", curves.spring, 1e-3, mass);
 }
 
 void addCurves(const StrutCurves& curves, json& into) {

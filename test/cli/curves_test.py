@@ -4,7 +4,7 @@ import json
 import pytest
 
 B1, B0, HARDER = 4.0, 40.0, 1.2  # of the ugv [1/s], [1/s^2]; what compression has more and rebound less [1/s]
-DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100", "--duration", "60", "--set", "noise=0.03"]
+DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100", "--set", "noise=0.03"]
 LAWS = {"damper_curve": ("velocity", lambda v: B1 * v + HARDER * abs(v)),
         "spring_curve": ("travel", lambda d: B0 * d)}
 
@@ -13,7 +13,7 @@ LAWS = {"damper_curve": ("velocity", lambda v: B1 * v + HARDER * abs(v)),
 def bag(program, tmp_path_factory):
     """A drive whose damper is harder in compression. Not to be written to."""
     path = tmp_path_factory.mktemp("curves") / "drive.bag"
-    program.succeed("simulate", *DRIVE, "--effect", f"asymmetric_damping={HARDER}", "-o", path)
+    program.succeed("simulate", *DRIVE, "--duration", "60", "--effect", f"asymmetric_damping={HARDER}", "-o", path)
     return path
 
 
@@ -59,8 +59,8 @@ def test_identify_fits_them_only_if_asked(program, tmp_path, bag):
 
 
 def test_too_little_to_tell_is_a_result(program, tmp_path):
-    short = tmp_path / "short.bag"
-    program.succeed("simulate", *DRIVE[:-4], "--duration", "12", "--set", "noise=3", "-o", short)
-    text, result = run(program, tmp_path, "identify", short, "--curves")
-    assert "damper at [m/s]: the drives do not tell" in text
-    assert result["damper_curve"] == {"velocity": [], "force": [], "stddev": []}
+    short, result = tmp_path / "short.bag", tmp_path / "result.json"
+    program.succeed("simulate", *DRIVE, "--duration", "5", "-o", short)
+    told = program("identify", short, "--curves", "--json", result)
+    assert "damper at [m/s]: the drives do not tell" in told.stdout
+    assert json.loads(result.read_text())["damper_curve"] == {"velocity": [], "force": [], "stddev": []}

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "whitening.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -24,7 +24,6 @@ constexpr double kTolerated = 0.5;           // misfit over standard deviation: 
 constexpr double kSteepest = 10.0;           // change of slope, over the slope, that is not unusual (an end stop)
 constexpr int kMostSteps = 8;                // some three per refinement
 constexpr int kMostHalvings = 6;             // of a step after which the model runs away
-constexpr Eigen::Index kWhitening = 10;      // order: two for each resonance of body and wheel, and for filters
 constexpr double kTransient = 1e-3;          // what is left of a wrong initial state where samples begin to count
 constexpr double kPeriodsOfCluster = 2.0;    // noise that a strut passes is forgotten after a natural period
 constexpr Eigen::Index kRowsPerColumn = 20;  // fewest samples
@@ -51,30 +50,15 @@ double sumOf(const std::vector<ActiveEffect>& effects, const StrutMotion& motion
   return sum;
 }
 
-/// How long the slowest free motion of a strut lasts [s].
-double settlingTime(double damping_to_mass, double stiffness_to_mass) {
-  const double half = 0.5 * damping_to_mass, discriminant = square(half) - stiffness_to_mass;
+/// b1 and b0. A strut without a damper has one of a tenth of the critical damping, so that all is counted in something.
+std::array<double, 2> slopesOf(const StrutModel& model) {
+  return {std::max(model.damping_to_mass, 0.2 * std::sqrt(model.stiffness_to_mass)), model.stiffness_to_mass};
+}
+
+/// How long the slowest free motion lasts [s].
+double settlingTime(const std::array<double, 2>& slopes) {
+  const double half = 0.5 * slopes[kDamper], discriminant = square(half) - slopes[kSpring];
   return -std::log(kTransient) / (half - std::sqrt(std::max(discriminant, 0.0)));
-}
-
-Eigen::VectorXd filtered(const Eigen::VectorXd& series, const Eigen::VectorXd& taps) {
-  const Eigen::Index n = series.size() - taps.size() + 1;
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(series.size());
-  for (Eigen::Index j = 0; j < taps.size(); ++j) result.tail(n) += taps[j] * series.segment(j, n);
-  return result;
-}
-
-/// Prediction error filter of an autoregressive model.
-/// @param counts  1 where a sample and those before it are of one stretch, else 0.
-Eigen::VectorXd whiteningOf(const Eigen::VectorXd& series, const Eigen::VectorXd& counts) {
-  const Eigen::Index n = series.size() - kWhitening;
-  Eigen::MatrixXd past(n, kWhitening);
-  for (Eigen::Index j = 0; j < kWhitening; ++j) past.col(j) = counts.tail(n).cwiseProduct(series.segment(j, n));
-  Eigen::MatrixXd normal = past.transpose() * past;
-  normal.diagonal().array() += kRounding * normal.trace() + std::numeric_limits<double>::min();
-  Eigen::VectorXd taps(kWhitening + 1);
-  taps << -solveSymmetric(normal, past.transpose() * series.tail(n)), 1.0;
-  return taps;
 }
 
 /// The fit of both laws and of an offset between the sensors, by Gauss-Newton steps.
@@ -83,7 +67,7 @@ class CurveFit {
   /// @param start  a model as it is, run from rest.
   CurveFit(const Records& records, const ModelFit& start)
       : records_(records),
-        strut_(start.model.linearPart()),
+        slopes_{slopesOf(start.model)},
         rest_(start.model),
         momentary_(takeMomentary(rest_)),
         fit_(start),
@@ -94,8 +78,8 @@ class CurveFit {
     for (const StrutMotion& motion : response.motion())
       for (const std::size_t w : {kDamper, kSpring}) most[w] = std::max(most[w], std::abs(variableOf(motion, w)));
     laws_ = {
-        NodalLaw::sampled(most[kDamper], kFirstNodes, [&](double v) { return slope(kDamper) * v + alone(0.0, v); }),
-        NodalLaw::sampled(most[kSpring], kFirstNodes, [&](double d) { return slope(kSpring) * d + alone(d, 0.0); })};
+        NodalLaw::sampled(most[kDamper], kFirstNodes, [&](double v) { return slopes_[kDamper] * v + alone(0.0, v); }),
+        NodalLaw::sampled(most[kSpring], kFirstNodes, [&](double d) { return slopes_[kSpring] * d + alone(d, 0.0); })};
     rest_.damping_to_mass = rest_.stiffness_to_mass = 0.0;
     rest_.effects.push_back({{}, 1.0, {}});
     rest_.effects.back().effect.force = [this](const StrutMotion& m, const double*) {
@@ -128,7 +112,7 @@ class CurveFit {
       stddev.push_back(std::hypot(byNoise(which, i), std::max(misfit(which, i), beside)));
     }
     const auto isKnown = [&](std::size_t i) {
-      return stddev[i] < kSmall * std::max(slope(which) * usual_[which], std::abs(law.values[i]));
+      return stddev[i] < kSmall * std::max(slopes_[which] * usual_[which], std::abs(law.values[i]));
     };
     std::size_t first = zero(which), last = first;
     while (first > 0 && isKnown(first - 1)) --first;
@@ -142,12 +126,6 @@ class CurveFit {
   }
 
  private:
-  // A strut without a damper has one of a tenth of the critical damping, so that all is counted in something.
-  double slope(std::size_t which) const {
-    return which == kDamper ? std::max(strut_.damping_to_mass, 0.2 * std::sqrt(strut_.stiffness_to_mass))
-                            : strut_.stiffness_to_mass;
-  }
-
   double alone(double travel, double rate) const {
     return sumOf(momentary_, {travel, rate, 0.0, {}}) - sumOf(momentary_, {0.0, 0.0, 0.0, {}});
   }
@@ -175,16 +153,15 @@ class CurveFit {
     if (node == 0 || node + 1 >= law.nodes.size()) return 0.0;
     const Eigen::Vector3d weights(law.bendWeights(node).data());
     const Eigen::Index first = column(which, node - 1);
-    const double by_noise = std::sqrt(weights.dot(inverse_.block<3, 3>(first, first) * weights));
-    return std::max(0.0, std::abs(law.bend(node)) - by_noise) * (law.nodes[node + 1] - law.nodes[node - 1]) / 24.0;
+    const double noise = std::sqrt(weights.dot(inverse_.block<3, 3>(first, first) * weights));
+    return std::max(0.0, std::abs(law.bend(node)) - noise) * (law.nodes[node + 1] - law.nodes[node - 1]) / 24.0;
   }
 
   // Not those that a wrong initial state or the filters' beginning is in.
   void countSamples(const std::vector<std::size_t>& ends) {
     const double period = records_.front()->period();
-    const auto skipped =
-        std::max(kWhitening, static_cast<Eigen::Index>(settlingTime(slope(kDamper), slope(kSpring)) / period));
-    cluster_ = static_cast<Eigen::Index>(kPeriodsOfCluster * 2.0 * M_PI / std::sqrt(strut_.stiffness_to_mass) / period);
+    const auto skipped = std::max(kWhitening, static_cast<Eigen::Index>(settlingTime(slopes_) / period));
+    cluster_ = static_cast<Eigen::Index>(kPeriodsOfCluster * 2.0 * M_PI / std::sqrt(slopes_[kSpring]) / period);
     counts_.setOnes(static_cast<Eigen::Index>(ends.back()));
     Eigen::Index begin = 0;
     for (const std::size_t end : ends) {
@@ -229,9 +206,9 @@ class CurveFit {
     for (const std::size_t w : {kDamper, kSpring})
       for (std::size_t i = 1; i + 1 < laws_[w].nodes.size(); ++i) {
         const std::array<double, 3> weights = laws_[w].bendWeights(i);
-        const Eigen::Vector3d row = Eigen::Vector3d(weights.data()) / (kSteepest * slope(w));
+        const Eigen::Vector3d row = Eigen::Vector3d(weights.data()) / (kSteepest * slopes_[w]);
         normal.block<3, 3>(column(w, i - 1), column(w, i - 1)) += row * row.transpose();
-        right.segment<3>(column(w, i - 1)) -= row * (laws_[w].bend(i) / (kSteepest * slope(w)));
+        right.segment<3>(column(w, i - 1)) -= row * (laws_[w].bend(i) / (kSteepest * slopes_[w]));
       }
   }
 
@@ -241,8 +218,7 @@ class CurveFit {
     Eigen::MatrixXd columns = responses();
     const Eigen::VectorXd residual = joined(fit_.residuals), taps = whiteningOf(residual, counts_);
     for (Eigen::Index j = 0; j < size(); ++j) columns.col(j) = filtered(columns.col(j), taps);
-    const Eigen::VectorXd white = filtered(residual, taps);
-    const Eigen::VectorXd weights = weightsOf(white);
+    const Eigen::VectorXd white = filtered(residual, taps), weights = weightsOf(white);
     Eigen::MatrixXd normal = columns.transpose() * weights.asDiagonal() * columns;
     Eigen::VectorXd right = columns.transpose() * weights.cwiseProduct(white);
     addPrior(normal, right);
@@ -301,8 +277,8 @@ class CurveFit {
   }
 
   const Records& records_;
-  LinearStrut strut_;
-  StrutModel rest_;  // what is not fitted, and the laws that are
+  std::array<double, 2> slopes_;  // of the linear laws
+  StrutModel rest_;               // what is not fitted, and the laws that are
   std::vector<ActiveEffect> momentary_;
   ModelFit fit_;
   std::array<NodalLaw, 2> laws_;
