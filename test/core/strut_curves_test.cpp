@@ -91,12 +91,12 @@ TEST(StrutCurves, HaveTheHarderDirectionOnItsSide) {
 TEST(StrutCurves, FindTheStopInTheSpring) {
   const SimulationOptions options = carWith("bump_stop", {0.008}, 0.3);
   const ActiveEffect& stop = options.hidden.front();
+  const double accuracy = stop.coefficient * 4.0 * kTravel / 128.0 / 4.0;
+  const auto law = [&](double d) { return kB0 * d + stop.coefficient * std::max(0.0, d - stop.shapes[0]); };
   const StrutCurves curves = strutCurves({driveOf(options)}, kLinear);
   expectLaw(
-      curves.damper, [](double v) { return linear(kB1, v); }, kRate / 1.5, 4.0 * kAccuracy);
-  expectLaw(
-      curves.spring, [&](double d) { return kB0 * d + stop.coefficient * std::max(0.0, d - stop.shapes[0]); },
-      kTravel / 1.5, accuracy);
+      curves.damper, [](double v) { return linear(kB1, v); }, kRate / 1.5, accuracy);
+  expectLaw(curves.spring, law, kTravel / 1.5, accuracy);
 }
 
 // What travel and travel rate decide together is no curve of either.
