@@ -44,11 +44,13 @@ struct BatteryDrive {
 };
 
 /// Makes drives of 120 s with noise of 0.024 to 0.04 m/s^2 in which every hidden force has 15 % of the linear force's
-/// rms; shapes lie where the drive can show them. Readings are changed by as much. Everything random comes from `seed`.
+/// rms, if not told otherwise; shapes lie where the drive can show them. Readings are changed by as much. Everything
+/// random comes from `seed`.
 class BatteryDriver {
  public:
-  BatteryDriver(const BatteryVehicle& vehicle, int seed)
-      : random_(seed, RandomPurpose::kSprungDelivery), noise_(seed, RandomPurpose::kSprungNoise) {
+  /// @param share  of the linear force's rms that a hidden force has.
+  BatteryDriver(const BatteryVehicle& vehicle, int seed, double share = 0.15)
+      : random_(seed, RandomPurpose::kSprungDelivery), noise_(seed, RandomPurpose::kSprungNoise), share_(share) {
     options_.scenario = vehicle.scenario;
     options_.vehicle = vehicle.vehicle;
     options_.iso_class = vehicle.iso_class;
@@ -141,7 +143,7 @@ class BatteryDriver {
         memory = {memory.s + rate.s / options_.rate / steps, memory.second + rate.second / options_.rate / steps};
       }
     }
-    active.coefficient = 0.15 * linear_ / std::sqrt(square / static_cast<double>(plain_.size()));
+    active.coefficient = share_ * linear_ / std::sqrt(square / static_cast<double>(plain_.size()));
     if (effect.name == "warming")  // less damping is more heat: it would run away
       active.coefficient = std::min(active.coefficient, 0.15 * plain_.front().truth.damping_to_mass / most);
     const bool either_sign = effect.name.find("asymmetric") == 0 || effect.name.find("drift") != std::string::npos;
@@ -198,7 +200,8 @@ class BatteryDriver {
   RandomStream random_, noise_;
   std::vector<DriveSample> plain_;
   double travel_ = 0.0, travel_rate_ = 0.0, linear_ = 0.0, jerk_ = 0.0;  // rms [m], [m/s], [m/s^2], [m/s^3]
-  double sensor_noise_;                                                  // [m/s^2]
+  double share_;
+  double sensor_noise_;  // [m/s^2]
 };
 
 }  // namespace suspension_health_monitor

@@ -8,12 +8,14 @@
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
+#include "suspension_health_monitor/internal/fit/curve_fit.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
 #include "suspension_health_monitor/internal/record/motion_range.h"
 #include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "suspension_health_monitor/strut_curves.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -127,6 +129,12 @@ Comparison compare(const std::vector<Drive>& drives, const CompareOptions& optio
   comparison.reason = reasonOf(comparison.shortcoming, prepared.start);
   if (comparison) describeFailures(comparison.views, comparison.noise_floor, comparison.where);
   return comparison;
+}
+
+StrutCurves strutCurves(const std::vector<Drive>& drives, const StrutModel& model,
+                        const std::optional<double>& sample_period) {
+  const PreparedDrives prepared = prepareDrives(drives, sample_period, std::nullopt, model);
+  return fitCurves(pointersTo(prepared.records), prepared.start);
 }
 
 }  // namespace suspension_health_monitor

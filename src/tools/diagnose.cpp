@@ -2,6 +2,7 @@
 
 #include "../ros/model_file.h"
 #include "command.h"
+#include "curve_output.h"
 #include "json_of.h"
 #include "long_work.h"
 #include "recorded_drives.h"
@@ -122,9 +123,9 @@ json tellNotTried(const Diagnosis& strut) {
 
 /// Tells people what was found of the struts that are asked for.
 /// @return the same for programs.
-json tell(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std::vector<std::string>& changes,
-          const TopicGaps& gaps) {
-  json whole = wholeJson(vehicle, found.coupling, gaps);
+json tell(const VehicleDiagnosis& found, const AskedDrives& asked, const std::vector<std::string>& changes) {
+  const AskedVehicle& vehicle = asked.options.vehicle;
+  json whole = wholeJson(vehicle, found.coupling, asked.gaps);
   if (!vehicle.isStrutAlone()) {
     std::printf("%s\n", found.summary.c_str());
     printCoupling(found.coupling, vehicle.names);
@@ -138,6 +139,9 @@ json tell(const VehicleDiagnosis& found, const AskedVehicle& vehicle, const std:
       printSearch(strut);
       its.update(toJson(strut));
       its["verdict"] = nameOf(found.verdictOn(i));
+      const StrutCurves curves = strutCurves(found.drives[i], strut.model(), asked.options.period());
+      printCurves(curves, asked.options.settings.struts[i].monitor.sprung_mass);
+      addCurves(curves, its);
     } else {
       std::printf("the drives %s\n", strut.reason.c_str());
       its["reason"] = strut.reason;
@@ -177,7 +181,7 @@ void search(const po::variables_map& values) {
   const std::vector<std::string> changes = changesOf(asked);
   progress.clear();
   printBags(asked.options, asked.bags, asked.gaps);
-  const json whole = tell(found, vehicle, changes, asked.gaps);
+  const json whole = tell(found, asked, changes);
   if (file) file->commit(whole.dump(2) + '\n');
   if (model) model->commit(modelText(found, vehicle));
   const ImuBags& bags = asked.options.bags;

@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "csv_tables.h"
+#include "curve_output.h"
 #include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
@@ -20,6 +21,7 @@ namespace po = boost::program_options;
 using nlohmann::json;
 
 constexpr std::size_t kTableLines = 12;
+constexpr const char* kCurves = "curves";
 
 /// The files that are asked for, begun.
 struct Files {
@@ -52,6 +54,7 @@ struct Found {
   VehicleIdentification vehicle;
   std::vector<std::string> changes;  // by strut, against the healthy one
   std::optional<BodyInertiaResult> body;
+  std::vector<StrutCurves> curves;  // by strut, if they are asked for
 };
 
 json toJson(const RecordedMonitor& recorded, const Found& found) {
@@ -65,6 +68,7 @@ json toJson(const RecordedMonitor& recorded, const Found& found) {
   for (const std::size_t i : recorded.vehicle().asked) {
     json& its = recorded.vehicle().resultsOf(i, whole);
     its.update(toJson(found.vehicle.struts[i], found.changes[i]));
+    if (!found.curves.empty()) addCurves(found.curves[i], its);
     its["mean_period"] = recorded.strut(i).input().mean_period;
   }
   const ModelReport& report = recorded.strut(0).report();
@@ -88,7 +92,9 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
   for (const std::size_t i : vehicle.asked) {
     const MonitorReport& report = recorded.strut(i).report();
     std::printf("\n%s", vehicle.prefix(i, ", ").c_str());
-    printEstimates(found.vehicle.struts[i], recorded.strut(i).options().sprung_mass);
+    const std::optional<double> mass = recorded.strut(i).options().sprung_mass;
+    printEstimates(found.vehicle.struts[i], mass);
+    if (!found.curves.empty()) printCurves(found.curves[i], mass);
     if (const TyreTracker* tyre = recorded.pipeline().tyre()) {
       printTyre("LS", tyre->report().ls, report.ls);
       printTyre("LA", tyre->report().la, report.la);
@@ -167,7 +173,8 @@ void identifyBags(const po::variables_map& values) {
   });
   recorded.read();
   files.rows.finish();
-  const Found found(recorded, options, healthy);
+  Found found(recorded, options, healthy);
+  if (values.count(kCurves) != 0) found.curves = curvesOfBags(options, found.vehicle.struts);
   files.commitTables(toJson(recorded, found));
   const Nominal nominal(recorded, found.vehicle.struts, options.settings);
   const bool has_settings = files.settings && !nominal.struts.empty();
@@ -191,6 +198,7 @@ void identify(const Arguments& arguments) {
   add("csv", po::value<std::string>(), "write a line per regression row, full precision");
   add("output,o", po::value<std::string>(),
       "write horizon and nominal values, with the settings given, as YAML for the monitor and --config");
+  add(kCurves, "fit the curves of damper and spring, too: reads the bags once more");
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, or settings with its nominal values, to say how this one is against it");
   const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");

@@ -1,6 +1,7 @@
 #include "report_page.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <utility>
 
@@ -90,6 +91,16 @@ json effectsJson(const EffectLibrary& library) {
   return effects;
 }
 
+/// The curves as --json has them, with the forces that a model has at their nodes.
+json curvesJson(const json& strut, const StrutModel& model) {
+  const std::array<Memory, kMostEffects> rest{};
+  json damper = strut.at("damper_curve"), spring = strut.at("spring_curve");
+  damper["law"] = spring["law"] = json::array();
+  for (const double v : damper["velocity"]) damper["law"].push_back(model.force(0.0, v, 0.0, rest.data()));
+  for (const double d : spring["travel"]) spring["law"].push_back(model.force(d, 0.0, 0.0, rest.data()));
+  return {{"damper", damper}, {"spring", spring}};
+}
+
 json findingsOf(const ReportContent& content) {
   double duration = 0.0;
   for (const ComparedSegment& segment : content.before.segments)
@@ -143,7 +154,9 @@ void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, cons
   }
   json findings = findingsOf(
       {found, options.candidates, *options.sample_period, source, before, after && *after ? &*after : nullptr});
-  findings["change"] = vehicle_.resultsOf(place, whole).value("change", "");
+  const json& its = vehicle_.resultsOf(place, whole);
+  findings["change"] = its.value("change", "");
+  findings["curves"] = shortened(curvesJson(its, found.model()));
   if (!vehicle_.isStrutAlone())
     findings["vehicle"] = {{"strut", vehicle_.names[place]},
                            {"file", vehicle_.file},

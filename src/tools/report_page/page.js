@@ -7,7 +7,7 @@ function buildPage() {
   const findings = readFindings();
   const timeView = new TimeView(findings.drives.map(unpackDrive), Boolean(findings.after));
   showPage(headline(findings), [
-    verdictSection(findings), ladderSection(findings),
+    verdictSection(findings), curveSection(findings), ladderSection(findings),
     section(
         'time', 'Measured against predicted',
         'The model gets the acceleration of the wheel and predicts that of the body; it never sees the body’s sensor.',

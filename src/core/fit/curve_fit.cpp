@@ -1,0 +1,308 @@
+#include "suspension_health_monitor/internal/fit/curve_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "nodal_law.h"
+#include "suspension_health_monitor/internal/fit/linear_response.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/math/linear_solve.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "whitening.h"
+
+namespace suspension_health_monitor {
+namespace {
+
+constexpr int kFirstNodes = 8;               // per side: half an rms apart, as the extremes of a drive are some four
+constexpr int kRefinements = 4;              // to a sixteenth of that: a thirtieth of the rms
+constexpr std::size_t kMostNodes = 50;       // of a law: it does not bend everywhere
+constexpr double kTolerated = 0.5;           // misfit over standard deviation: adds an eighth of the variance
+constexpr double kSteepest = 10.0;           // change of slope, over the slope, that is not unusual (an end stop)
+constexpr int kMostSteps = 8;                // some three per refinement
+constexpr int kMostHalvings = 6;             // of a step after which the model runs away
+constexpr double kTransient = 1e-3;          // what is left of a wrong initial state where samples begin to count
+constexpr double kPeriodsOfCluster = 2.0;    // noise that a strut passes is forgotten after a natural period
+constexpr Eigen::Index kRowsPerColumn = 20;  // fewest samples
+
+enum Which : std::size_t { kDamper, kSpring };
+
+double variableOf(const StrutMotion& motion, std::size_t which) {
+  return which == kDamper ? motion.travel_rate : motion.travel;
+}
+
+bool hasMemory(const ActiveEffect& active) { return static_cast<bool>(active.effect.memory_rate); }
+
+/// Takes the effects without memory out of a model.
+std::vector<ActiveEffect> takeMomentary(StrutModel& model) {
+  const auto first = std::stable_partition(model.effects.begin(), model.effects.end(), hasMemory);
+  std::vector<ActiveEffect> momentary(first, model.effects.end());
+  model.effects.erase(first, model.effects.end());
+  return momentary;
+}
+
+double sumOf(const std::vector<ActiveEffect>& effects, const StrutMotion& motion) {
+  double sum = 0.0;
+  for (const auto& [effect, coefficient, shapes] : effects) sum += coefficient * effect.force(motion, shapes.data());
+  return sum;
+}
+
+/// b1 and b0. A strut without a damper has one of a tenth of the critical damping, so that all is counted in something.
+std::array<double, 2> slopesOf(const StrutModel& model) {
+  return {std::max(model.damping_to_mass, 0.2 * std::sqrt(model.stiffness_to_mass)), model.stiffness_to_mass};
+}
+
+/// How long the slowest free motion lasts [s].
+double settlingTime(const std::array<double, 2>& slopes) {
+  const double half = 0.5 * slopes[kDamper], discriminant = square(half) - slopes[kSpring];
+  return -std::log(kTransient) / (half - std::sqrt(std::max(discriminant, 0.0)));
+}
+
+/// The fit of both laws and of an offset between the sensors, by Gauss-Newton steps.
+class CurveFit {
+ public:
+  /// @param start  a model as it is, run from rest.
+  CurveFit(const Records& records, const ModelFit& start)
+      : records_(records),
+        slopes_{slopesOf(start.model)},
+        rest_(start.model),
+        momentary_(takeMomentary(rest_)),
+        fit_(start),
+        accuracy_(accuracyOfFreeRuns(records)) {
+    const LinearResponse response(records, start);
+    usual_ = {response.travelRate(), response.travel()};
+    std::array<double, 2> most{};
+    for (const StrutMotion& motion : response.motion())
+      for (const std::size_t w : {kDamper, kSpring}) most[w] = std::max(most[w], std::abs(variableOf(motion, w)));
+    laws_ = {
+        NodalLaw::sampled(most[kDamper], kFirstNodes, [&](double v) { return slopes_[kDamper] * v + alone(0.0, v); }),
+        NodalLaw::sampled(most[kSpring], kFirstNodes, [&](double d) { return slopes_[kSpring] * d + alone(d, 0.0); })};
+    rest_.damping_to_mass = rest_.stiffness_to_mass = 0.0;
+    rest_.effects.push_back({{}, 1.0, {}});
+    rest_.effects.back().effect.force = [this](const StrutMotion& m, const double*) {
+      const double joint =
+          momentary_.empty() ? 0.0 : sumOf(momentary_, m) - alone(m.travel, 0.0) - alone(0.0, m.travel_rate);
+      return joint + laws_[kDamper].at(m.travel_rate) + laws_[kSpring].at(m.travel);
+    };
+    countSamples(response.ends());
+  }
+
+  CurveFit(const CurveFit&) = delete;  // the model calls this object
+
+  /// @return false if nothing moves enough, or the model runs away.
+  bool solve() {
+    if (!(usual_[kDamper] > 0.0) || counts_.sum() < static_cast<double>(kRowsPerColumn * size()) || !run())
+      return false;
+    for (int refined = 0;; ++refined) {
+      std::optional<bool> settled = false;
+      for (int i = 0; i < kMostSteps && settled == false; ++i) settled = step();
+      if (!settled) return false;
+      if (refined == kRefinements || !refine()) return true;
+    }
+  }
+
+  ForceCurve curve(std::size_t which) const {
+    const NodalLaw& law = laws_[which];
+    std::vector<double> stddev;
+    for (std::size_t i = 0; i < law.nodes.size(); ++i) {
+      const double beside = std::max(i > 0 ? misfit(which, i - 1) : 0.0, misfit(which, i + 1));
+      stddev.push_back(std::hypot(byNoise(which, i), std::max(misfit(which, i), beside)));
+    }
+    const auto isKnown = [&](std::size_t i) {
+      return stddev[i] < kSmall * std::max(slopes_[which] * usual_[which], std::abs(law.values[i]));
+    };
+    std::size_t first = zero(which), last = first;
+    while (first > 0 && isKnown(first - 1)) --first;
+    while (last + 1 < stddev.size() && isKnown(last + 1)) ++last;
+    if (first == last) return {};
+    const auto part = [&](const std::vector<double>& all) {
+      return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                 all.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    };
+    return {part(law.nodes), part(law.values), part(stddev)};
+  }
+
+ private:
+  double alone(double travel, double rate) const {
+    return sumOf(momentary_, {travel, rate, 0.0, {}}) - sumOf(momentary_, {0.0, 0.0, 0.0, {}});
+  }
+
+  // Columns: the damper's nodes, the spring's, the offset.
+  Eigen::Index column(std::size_t which, std::size_t node) const {
+    return static_cast<Eigen::Index>(which == kDamper ? node : laws_[kDamper].nodes.size() + node);
+  }
+  Eigen::Index size() const { return column(kSpring, laws_[kSpring].nodes.size()) + 1; }
+  std::size_t zero(std::size_t which) const {
+    const std::vector<double>& nodes = laws_[which].nodes;
+    return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), 0.0) - nodes.begin());
+  }
+
+  // The larger one of what white noise, and what the scores of stretches of the drives tell.
+  double byNoise(std::size_t which, std::size_t node) const {
+    const Eigen::Index at = column(which, node);
+    return std::sqrt(std::max(inverse_(at, at), scattered_(at, at)));
+  }
+
+  // How wrong straight lines are at a node: least squares through x^2 f''/2 are so by h^2 f''/12 at nodes h apart. As
+  // far as the bend is not by noise.
+  double misfit(std::size_t which, std::size_t node) const {
+    const NodalLaw& law = laws_[which];
+    if (node == 0 || node + 1 >= law.nodes.size()) return 0.0;
+    const Eigen::Vector3d weights(law.bendWeights(node).data());
+    const Eigen::Index first = column(which, node - 1);
+    const double noise = std::sqrt(weights.dot(inverse_.block<3, 3>(first, first) * weights));
+    return std::max(0.0, std::abs(law.bend(node)) - noise) * (law.nodes[node + 1] - law.nodes[node - 1]) / 24.0;
+  }
+
+  // Not those that a wrong initial state or the filters' beginning is in.
+  void countSamples(const std::vector<std::size_t>& ends) {
+    const double period = records_.front()->period();
+    const auto skipped = std::max(kWhitening, static_cast<Eigen::Index>(settlingTime(slopes_) / period));
+    cluster_ = static_cast<Eigen::Index>(kPeriodsOfCluster * 2.0 * M_PI / std::sqrt(slopes_[kSpring]) / period);
+    counts_.setOnes(static_cast<Eigen::Index>(ends.back()));
+    Eigen::Index begin = 0;
+    for (const std::size_t end : ends) {
+      const Eigen::Index size = static_cast<Eigen::Index>(end) - begin;
+      counts_.segment(begin, std::min(size, skipped)).setZero();
+      begin += size;
+    }
+  }
+
+  bool run() {
+    fit_.model = rest_;
+    fit_.residuals.clear();
+    for (const DriveSegment* segment : segmentsOf(records_)) {
+      std::vector<double>& residuals = fit_.residuals.emplace_back();
+      if (!runFree(rest_, *segment, fit_.initial[fit_.residuals.size() - 1], residuals)) return false;
+      for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segment->sprung[k] - residuals[k] - offset_;
+    }
+    return true;
+  }
+
+  void move(const Eigen::VectorXd& by) {
+    for (const std::size_t w : {kDamper, kSpring})
+      for (std::size_t i = 0; i < laws_[w].nodes.size(); ++i) laws_[w].values[i] += by[column(w, i)];
+    offset_ += by[size() - 1];
+  }
+
+  // What every node does to the prediction.
+  Eigen::MatrixXd responses() const {
+    const LinearResponse response(records_, fit_);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(response.numSamples(), size());
+    for (Eigen::Index k = 0; k < columns.rows(); ++k)
+      for (const std::size_t w : {kDamper, kSpring})
+        laws_[w].forNodesAt(variableOf(response.motion()[static_cast<std::size_t>(k)], w),
+                            [&](std::size_t i, double weight) { columns(k, column(w, i)) = weight; });
+    for (Eigen::Index j = 0; j + 1 < size(); ++j) columns.col(j) = response.respond(columns.col(j));
+    columns.col(size() - 1).setOnes();
+    return columns;
+  }
+
+  // A node that few samples reach goes on from its neighbours.
+  void addPrior(Eigen::MatrixXd& normal, Eigen::VectorXd& right) const {
+    for (const std::size_t w : {kDamper, kSpring})
+      for (std::size_t i = 1; i + 1 < laws_[w].nodes.size(); ++i) {
+        const std::array<double, 3> weights = laws_[w].bendWeights(i);
+        const Eigen::Vector3d row = Eigen::Vector3d(weights.data()) / (kSteepest * slopes_[w]);
+        normal.block<3, 3>(column(w, i - 1), column(w, i - 1)) += row * row.transpose();
+        right.segment<3>(column(w, i - 1)) -= row * (laws_[w].bend(i) / (kSteepest * slopes_[w]));
+      }
+  }
+
+  /// One step.
+  /// @return whether it was small against the standard deviations; nothing: the model runs away.
+  std::optional<bool> step() {
+    Eigen::MatrixXd columns = responses();
+    const Eigen::VectorXd residual = joined(fit_.residuals), taps = whiteningOf(residual, counts_);
+    for (Eigen::Index j = 0; j < size(); ++j) columns.col(j) = filtered(columns.col(j), taps);
+    const Eigen::VectorXd white = filtered(residual, taps), weights = weightsOf(white);
+    Eigen::MatrixXd normal = columns.transpose() * weights.asDiagonal() * columns;
+    Eigen::VectorXd right = columns.transpose() * weights.cwiseProduct(white);
+    addPrior(normal, right);
+    Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
+    for (const std::size_t w : {kDamper, kSpring}) scale[column(w, zero(w))] = 0.0;  // 0 at 0
+    Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+    scaled.diagonal().setOnes();
+    inverse_ = scale.asDiagonal() * solveSymmetric(scaled, Eigen::MatrixXd(scale.asDiagonal()));
+    Eigen::VectorXd moved = inverse_ * right;
+    if (!moved.allFinite()) return std::nullopt;
+    scatter(columns, weights.cwiseProduct(white - columns * moved));
+    move(moved);
+    for (int halved = 0; !run(); ++halved) {
+      if (halved == kMostHalvings) return std::nullopt;
+      moved /= 2.0;
+      move(-moved);
+    }
+    return (moved.array().square() <= square(kSmall) * inverse_.diagonal().array()).all();
+  }
+
+  // One over the variance; less for outliers; 0 for what does not count.
+  Eigen::VectorXd weightsOf(const Eigen::VectorXd& white) const {
+    std::vector<double> counted;
+    for (Eigen::Index k = 0; k < white.size(); ++k)
+      if (counts_[k] > 0.0) counted.push_back(white[k]);
+    const double limit = kOutlierScale * std::max(robustDeviation(counted), accuracy_);
+    const Eigen::VectorXd weights = counts_.array() / (1.0 + (white.array() / limit).square()).sqrt();
+    const double variance = weights.dot(white.cwiseAbs2()) / weights.sum();
+    return weights / std::max(variance, square(accuracy_));
+  }
+
+  // Covariance by the scores of stretches (clusters): noise need not be alike at all times.
+  void scatter(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weighted) {
+    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(size(), size());
+    for (Eigen::Index k = 0; k < columns.rows(); k += cluster_) {
+      const Eigen::Index count = std::min(cluster_, columns.rows() - k);
+      const Eigen::VectorXd score = columns.middleRows(k, count).transpose() * weighted.segment(k, count);
+      scores.noalias() += score * score.transpose();
+    }
+    scattered_ = inverse_ * scores * inverse_;
+  }
+
+  /// Adds nodes where a law bends more between two than noise hides.
+  /// @return false: there is no need.
+  bool refine() {
+    std::array<NodalLaw, 2> finer;
+    for (const std::size_t w : {kDamper, kSpring})
+      finer[w] = laws_[w].refined([&](std::size_t i) {
+        // 0 is known exactly
+        const double stddev = i == zero(w) ? std::max(byNoise(w, i - 1), byNoise(w, i + 1)) : byNoise(w, i);
+        return laws_[w].nodes.size() < kMostNodes && misfit(w, i) > kTolerated * stddev;
+      });
+    const std::size_t before = laws_[kDamper].nodes.size() + laws_[kSpring].nodes.size();
+    laws_ = finer;
+    return laws_[kDamper].nodes.size() + laws_[kSpring].nodes.size() > before;
+  }
+
+  const Records& records_;
+  std::array<double, 2> slopes_;  // of the linear laws
+  StrutModel rest_;               // what is not fitted, and the laws that are
+  std::vector<ActiveEffect> momentary_;
+  ModelFit fit_;
+  std::array<NodalLaw, 2> laws_;
+  std::array<double, 2> usual_{};   // rms of what they depend on
+  double offset_ = 0.0, accuracy_;  // [m/s^2]
+  Eigen::VectorXd counts_;          // 1 for samples that count, else 0
+  Eigen::Index cluster_ = 0;
+  Eigen::MatrixXd inverse_, scattered_;
+};
+
+}  // namespace
+
+double ForceCurve::forceAt(double x) const { return NodalLaw{at, force}.at(x); }
+double ForceCurve::stddevAt(double x) const { return NodalLaw{at, stddev}.at(x); }
+
+StrutCurves fitCurves(const Records& records, const StrutModel& model) {
+  // One effect's place is for the curves.
+  const auto kept = std::count_if(model.effects.begin(), model.effects.end(), hasMemory);
+  if (segmentsOf(records).empty() || kept == static_cast<std::ptrdiff_t>(kMostEffects)) return {};
+  const FitOutcome start = withoutFit(records, model);
+  if (!start) return {};
+  CurveFit fit(records, *start);
+  if (!fit.solve()) return {};
+  return {fit.curve(kDamper), fit.curve(kSpring)};
+}
+
+}  // namespace suspension_health_monitor

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "bag_options.h"
+#include "suspension_health_monitor/strut_curves.h"
+#include "suspension_health_monitor/vehicle.h"
+
+namespace suspension_health_monitor {
+
+/// Reads bags as drives and fits curves, from the linear struts that identify found.
+/// @param found  by strut.  @return likewise; empty curves where nothing was found, or is not asked for.
+std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<IdentifyResult>& found);
+
+/// Tells people the forces at even travel rates and travels, compression beside rebound, with nine tenths of certainty.
+/// @param mass  of the body [kg], for forces in N; nothing: over the mass.
+void printCurves(const StrutCurves& curves, const std::optional<double>& mass);
+
+/// Adds "damper_curve" and "spring_curve", over the body's mass.
+void addCurves(const StrutCurves& curves, nlohmann::json& into);
+
+}  // namespace suspension_health_monitor
