@@ -28,7 +28,7 @@ function(add_python_part part directory)
   target_compile_options(${target} PRIVATE ${strict_warnings})
   target_compile_features(${target} PRIVATE cxx_std_17)
   set_target_properties(${target} PROPERTIES OUTPUT_NAME _${part} LIBRARY_OUTPUT_DIRECTORY ${directory}
-    UNITY_BUILD_BATCH_SIZE 2)  # with pybind11 more take above 1 GB
+    UNITY_BUILD_BATCH_SIZE 2)  # with pybind11 two take as much memory as four others
 endfunction()
 
 file(GLOB python_core_sources CONFIGURE_DEPENDS ${python_repository}/src/python/*.cpp)

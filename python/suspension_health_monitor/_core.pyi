@@ -81,6 +81,7 @@ class Diagnosis:
     base: RankedModel  # the model that the search started with, fitted
     base_fit_percent: float
     change: str  # against nominal values, in a sentence; empty: none are given
+    damper_curve: Dict[str, Numbers]  # velocity [m/s], compression above 0; force, stddev over the body's mass [m/s^2]
     explained_share: float  # of the structure, by the effects named
     extended: Optional[RankedModel]  # the model with what was found, as judged, or None
     extended_fit_percent: float
@@ -92,6 +93,7 @@ class Diagnosis:
     ranking: List[RankedModel]  # single effects, best first
     remainder: str  # what a suspect leaves, in a sentence
     selected: List[str]  # names of what is to be added to the model
+    spring_curve: Dict[str, Numbers]  # travel [m], compression above 0; force, stddev over the body's mass [m/s^2]
     structured_share: float  # of the base's error that is not noise
     suggested_drive: str  # what to record next
     summary: str  # the verdict in a sentence

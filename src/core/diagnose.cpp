@@ -15,7 +15,6 @@
 #include "suspension_health_monitor/internal/record/motion_range.h"
 #include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "suspension_health_monitor/strut_curves.h"
 
 namespace suspension_health_monitor {
 namespace {

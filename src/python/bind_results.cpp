@@ -66,12 +66,23 @@ void bindComparison(py::module& module) {
       .add("fitted", [](const Comparison& self) { return !self.stddev.empty(); });
 }
 
+/// @return arrays by their names in JSON.
+py::dict columnsOf(const char* variable, const ForceCurve& curve) {
+  py::dict columns;
+  for (const auto& [name, numbers] :
+       {std::pair(variable, &curve.at), {"force", &curve.force}, {"stddev", &curve.stddev}})
+    columns[name] = arrayOf(*numbers, [](double number) { return number; });
+  return columns;
+}
+
 void bindDiagnosis(py::module& module) {
   ResultClass<RankedModel>(module, "RankedModel", "The model with effects added, judged by what no fit has seen.")
       .add("failure", [](const RankedModel& self) { return reasonOf(self.failure); });
   ResultClass<FittedModel>(module, "FittedModel", "A model with its uncertainty.");
   ResultClass<SearchedStrut>(module, "Diagnosis", "What a search for missing effects found.")
-      .add("model", &SearchedStrut::model);
+      .add("model", &SearchedStrut::model)
+      .add("damper_curve", [](const SearchedStrut& self) { return columnsOf("velocity", self.curves.damper); })
+      .add("spring_curve", [](const SearchedStrut& self) { return columnsOf("travel", self.curves.spring); });
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ struct Identification : IdentifyResult {
 
 struct SearchedStrut : Diagnosis {
   std::string change;  ///< likewise
+  StrutCurves curves;
 };
 
 /// With the estimates at the end.

@@ -47,16 +47,10 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
   return transforms;
 }
 
-/// @return the bags and the part of each that is to be read, with the static transforms if a target_frame wants them.
+/// @return the bags, with the static transforms if a target_frame wants them.
 ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
-  ImuBags bags;
+  ImuBags bags = bagsOf(values);
   bags.reads_ahead = threadsOf(values) > 1;
-  bags.paths = values["bag"].as<std::vector<std::string>>();
-  bags.start = values["start"].as<double>();
-  if (values.count("end") != 0) bags.end = values["end"].as<double>();
-  if (!(bags.start >= 0.0 && bags.end > bags.start))
-    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
-                                " [s], must be 0 <= start < end");
   if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
   return bags;
 }
@@ -97,9 +91,28 @@ void place(VehicleLayout& layout, ImuBags bags, const ShellOptions& options) {
 
 }  // namespace
 
-void addBagOptions(po::options_description& description) {
+void addBags(po::options_description& description) {
   auto add = description.add_options();
   add("bag", po::value<std::vector<std::string>>()->required(), "bags, read one after the other");
+  add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
+  add("end", po::value<double>(), "[s] after the beginning of each bag (its end)");
+  add("json", po::value<std::string>(), "write the result as JSON");
+}
+
+ImuBags bagsOf(const po::variables_map& values) {
+  ImuBags bags;
+  bags.paths = values["bag"].as<std::vector<std::string>>();
+  bags.start = values["start"].as<double>();
+  if (values.count("end") != 0) bags.end = values["end"].as<double>();
+  if (!(bags.start >= 0.0 && bags.end > bags.start))
+    throw std::invalid_argument("--start " + numberText(bags.start) + " --end " + numberText(bags.end) +
+                                " [s], must be 0 <= start < end");
+  return bags;
+}
+
+void addBagOptions(po::options_description& description) {
+  addBags(description);
+  auto add = description.add_options();
   add("config", po::value<std::string>()->default_value(""),
       "YAML file like config/monitor.yaml, or a model that diagnose -o has written");
   add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
@@ -107,9 +120,6 @@ void addBagOptions(po::options_description& description) {
   add("sprung-topic", po::value<std::string>()->default_value("/sprung/imu"), "Imu topic of the body");
   add("unsprung-topic", po::value<std::string>()->default_value("/unsprung/imu"), "Imu topic of the wheel carrier");
   add("road-topic", po::value<std::string>(), "Imu topic of the road under the tyre: identifies the tyre, too");
-  add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
-  add("end", po::value<double>(), "[s] after the beginning of each bag (its end)");
-  add("json", po::value<std::string>(), "write the result as JSON");
   add("threads", po::value<int>()->default_value(static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))),
       "processor cores to use");
   add(kVehicle, po::value<std::string>(),

@@ -62,7 +62,14 @@ struct BagOptions {
   double period() const { return *settings.common.monitor.sample_period; }  ///< [s], of readBagOptions()
 };
 
-/// Adds the common options to a subcommand's own.
+/// Adds the bags, the part of each that is to be read, and --json to a subcommand's options.
+void addBags(boost::program_options::options_description& description);
+
+/// @return what addBags() has asked for, without topics.
+/// @throws std::invalid_argument  for a part that ends before it begins.
+ImuBags bagsOf(const boost::program_options::variables_map& values);
+
+/// Adds these and the other common options to a subcommand's own.
 void addBagOptions(boost::program_options::options_description& description);
 
 /// @return how many processor cores may be used.

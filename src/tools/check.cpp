@@ -230,25 +230,19 @@ json toJson(const Checked& checked) {
 
 void check(const Arguments& arguments) {
   po::options_description description("options");
+  addBags(description);
   auto add = description.add_options();
-  add("bag", po::value<std::vector<std::string>>()->required(), "bags, read one after the other");
   add(kVehicle, po::value<std::string>(), "check the IMUs of this vehicle file");
   add("sprung-topic", po::value<std::string>(), "check this Imu topic of the body and that of the wheel carrier");
   add("unsprung-topic", po::value<std::string>(), "Imu topic of the wheel carrier; without any all in the bags");
-  add("start", po::value<double>()->default_value(0.0), "[s] after the beginning of each bag");
-  add("end", po::value<double>()->default_value(HUGE_VAL, "its end"), "[s] after the beginning of each bag");
   add("write", po::value<std::string>(), "YAML file for the other commands: settings of a strut, or a vehicle file");
-  add("json", po::value<std::string>(), "write the result as JSON");
   const auto values = parse(
       arguments, "check BAG... [--vehicle FILE | --sprung-topic T --unsprung-topic T] [OPTION]...", description, "bag");
   if (!values) return;
   requireSeparateFiles(*values, {"bag", kVehicle}, {"write", "json"});
   std::optional<TextFile> written = outputFile(*values, "write"), findings = outputFile(*values, "json");
 
-  ImuBags bags;
-  bags.paths = (*values)["bag"].as<std::vector<std::string>>();
-  bags.start = (*values)["start"].as<double>();
-  bags.end = (*values)["end"].as<double>();
+  const ImuBags bags = bagsOf(*values);
   Checked checked;
   checked.read(bags, topicsOf(*values));
   checked.orient();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bag_options.h"
-#include "suspension_health_monitor/strut_curves.h"
+#include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {

@@ -21,7 +21,6 @@ namespace po = boost::program_options;
 using nlohmann::json;
 
 constexpr std::size_t kTableLines = 12;
-constexpr const char* kCurves = "curves";
 
 /// The files that are asked for, begun.
 struct Files {
@@ -174,7 +173,7 @@ void identifyBags(const po::variables_map& values) {
   recorded.read();
   files.rows.finish();
   Found found(recorded, options, healthy);
-  if (values.count(kCurves) != 0) found.curves = curvesOfBags(options, found.vehicle.struts);
+  if (values.count("curves") != 0) found.curves = curvesOfBags(options, found.vehicle.struts);
   files.commitTables(toJson(recorded, found));
   const Nominal nominal(recorded, found.vehicle.struts, options.settings);
   const bool has_settings = files.settings && !nominal.struts.empty();
@@ -198,7 +197,7 @@ void identify(const Arguments& arguments) {
   add("csv", po::value<std::string>(), "write a line per regression row, full precision");
   add("output,o", po::value<std::string>(),
       "write horizon and nominal values, with the settings given, as YAML for the monitor and --config");
-  add(kCurves, "fit the curves of damper and spring, too: reads the bags once more");
+  add("curves", "fit the curves of damper and spring, too: reads the bags once more");
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, or settings with its nominal values, to say how this one is against it");
   const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");

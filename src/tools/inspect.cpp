@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/inspect.h"
+#include "suspension_health_monitor/internal/health/inspection.h"
 
 #include <array>
 #include <boost/algorithm/string/replace.hpp>

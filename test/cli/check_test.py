@@ -123,3 +123,7 @@ def test_bags_without_imus_and_options_that_do_not_fit_are_refused(program, driv
     program.refuse(3, ["check", tmp_path / "other.bag"], ["no topic of sensor_msgs/Imu"], tmp_path)
     program.refuse(3, ["check", drive, "--sprung-topic", "/no", "--unsprung-topic", "/imu/data"], ["no topic /no"], tmp_path)
     program.refuse(2, ["check", drive, "--sprung-topic", "/imu/data"], ["must come with the other"], tmp_path)
+
+
+def test_a_part_that_ends_before_it_begins_is_refused(program, drive, tmp_path):
+    program.refuse(2, ["check", drive, "--start", "5", "--end", "1"], ["--start 5 --end 1 [s], must be 0 <= start < end"], tmp_path)

@@ -12,7 +12,6 @@ from python_module import HIDDEN, ROUGH, shm
 KEYWORDS = {"from": "from_"}  # of Python
 ELSEWHERE = {"silent", "coefficients", "shapes", "stddevs", "parameters", "not_tried", "warn_events", "error_events",
              "fit_percent", "fitted_to_all_samples", "failure"}  # under other names, or in the model: compared below
-ELSEWHERE |= {"damper_curve", "spring_curve"}  # of the command line alone
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-#include "suspension_health_monitor/inspect.h"
+#include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/strut_curves.h"
+#include "suspension_health_monitor/diagnose.h"
 
 #include <gtest/gtest.h>
 

@@ -115,14 +115,6 @@ std::string describeDoubt(EstimateDoubt doubt, const std::string& known) {
   return describe(doubt) + (is_excitation ? known : "");
 }
 
-}  // namespace
-
-std::string describeDoubt(const StrutEstimate& estimate, double enough) {
-  return describeDoubt(estimate.doubt, describeKnown(estimate.knownTo(), enough, estimate.secondsUntil(enough)));
-}
-
-namespace {
-
 // @param stddev  of ln(1 + change).
 // @return what holds its size 95 times of 100: "28 to 34 %", "2 % below to 4 % above"; empty: not known, or no wider
 // than the last digit.
@@ -216,6 +208,10 @@ std::string describeLoad(const CornerComparisonReport& report) {
 }
 
 }  // namespace
+
+std::string describeDoubt(const StrutEstimate& estimate, double enough) {
+  return describeDoubt(estimate.doubt, describeKnown(estimate.knownTo(), enough, estimate.secondsUntil(enough)));
+}
 
 const char* nameOf(HealthLevel level) {
   switch (level) {

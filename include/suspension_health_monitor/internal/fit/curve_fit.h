@@ -1,7 +1,7 @@
 #pragma once
 
 #include "suspension_health_monitor/internal/record/drive_record.h"
-#include "suspension_health_monitor/strut_curves.h"
+#include "suspension_health_monitor/diagnose.h"
 
 namespace suspension_health_monitor {
 

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/inspect.h"
+#include "suspension_health_monitor/internal/health/inspection.h"
 
 #include <algorithm>
 #include <functional>
@@ -18,6 +18,8 @@ constexpr double kFalseFail = 0.01;
 // ratios of b1 and b0 of an axle were off by up to 0.21 of what errors of their own would make, by 0.1 as root mean
 // square.
 constexpr double kOwnShare = 0.2;
+
+const double kTwoSided95 = normalQuantile(0.025);
 
 // The most that a drive is made longer for, times.
 constexpr double kMostLonger = 16.0;
@@ -54,7 +56,8 @@ Uncertain dampingRatioOf(const StrutEstimate& its) {
           per_damping * its.damping_model_stddev + std::abs(per_stiffness) * its.stiffness_model_stddev};
 }
 
-ValueRange frequencyRange(const ValueRange& stiffness) {
+ValueRange frequencyOf(const StrutEstimate& its) {
+  const ValueRange stiffness = stiffnessOf(its).range(kTwoSided95, 1.0);
   return {std::sqrt(stiffness.low) / (2.0 * M_PI), std::sqrt(stiffness.high) / (2.0 * M_PI)};
 }
 
@@ -100,27 +103,21 @@ class Inspector {
 
   Inspection result() {
     Inspection result;
-    for (const InspectedStrut& strut : struts_) {
-      result.frequencies.push_back(
-          doubtOf(strut).empty() ? frequencyRange(stiffnessOf(strut.estimate).range(kTwoSided95, 1.0)) : ValueRange());
-    }
+    for (const InspectedStrut& strut : struts_)
+      result.frequencies.push_back(doubtOf(strut).empty() ? frequencyOf(strut.estimate) : ValueRange());
     for (InspectedNumber& number : numbers_)
       if (number.doubt.empty()) judge(number);
-    const auto all = [&](InspectionVerdict verdict) {
-      return std::all_of(numbers_.begin(), numbers_.end(), [&](const auto& its) { return its.verdict == verdict; });
+    const auto any = [&](InspectionVerdict verdict) {
+      return std::any_of(numbers_.begin(), numbers_.end(), [&](const auto& its) { return its.verdict == verdict; });
     };
-    const bool fails = std::any_of(numbers_.begin(), numbers_.end(),
-                                   [](const auto& its) { return its.verdict == InspectionVerdict::kFails; });
-    result.verdict = fails                             ? InspectionVerdict::kFails
-                     : all(InspectionVerdict::kPasses) ? InspectionVerdict::kPasses
-                                                       : InspectionVerdict::kCannotTell;
+    result.verdict = InspectionVerdict::kPasses;
+    for (const InspectionVerdict worse : {InspectionVerdict::kCannotTell, InspectionVerdict::kFails})
+      if (any(worse)) result.verdict = worse;
     result.numbers = std::move(numbers_);
     return result;
   }
 
  private:
-  static inline const double kTwoSided95 = normalQuantile(0.025);
-
   // Pairs of left and right.
   std::vector<StrutPair> axles() const {
     StrutPlaces places;
@@ -218,11 +215,9 @@ Inspection inspect(const std::vector<InspectedStrut>& struts, const InspectionLi
 }
 
 std::string describe(const InspectedNumber& number, const std::vector<InspectedStrut>& struts, double seconds) {
-  switch (number.verdict) {
-    case InspectionVerdict::kPasses: return "passes";
-    case InspectionVerdict::kFails: return number.weaker ? "fails: weaker is " + struts[*number.weaker].name : "fails";
-    case InspectionVerdict::kCannotTell: break;
-  }
+  if (number.verdict == InspectionVerdict::kPasses) return "passes";
+  if (number.verdict == InspectionVerdict::kFails)
+    return number.weaker ? "fails: weaker is " + struts[*number.weaker].name : "fails";
   if (!number.doubt.empty()) return "cannot tell: " + number.doubt;
   if (number.longer) return formatted("cannot tell: drive %.0f s in all, or a rougher road", seconds * *number.longer);
   return "cannot tell: too near the limit for any drive on this road";

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <complex>
 
-#include "suspension_health_monitor/inspect.h"
 #include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
 namespace {
