@@ -2,17 +2,12 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/compare/comparison.h"
+#include "suspension_health_monitor/internal/compare/tuning.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr double kContrastInTime = 1.5;  // of rmse in a region to rmse elsewhere
-constexpr double kWorthATrend = 0.08;    // change of a parameter over a drive, of its value
-constexpr double kNegligible = 0.25;     // of the noise floor: smaller mean forces are not named
-constexpr std::size_t kMostRanges = 2;
-constexpr std::size_t kFewest = 30;  // samples of a bin or a cell: fewer say nothing
 
 /// Adjacent bins, summed up.
 struct BinRange {
@@ -84,7 +79,7 @@ class FailureFinder {
  private:
   /// @return true if a mean is beyond chance, and more than a quarter of the noise floor.
   bool isForce(double mean, double standard_error, double limit) const {
-    return std::abs(mean) > std::max(limit * standard_error, kNegligible * noise_floor_);
+    return std::abs(mean) > std::max(limit * standard_error, kCompareTuning.negligible * noise_floor_);
   }
 
   /// @return true if a mean square is more than noise: significantly, and by so much that what is
@@ -106,16 +101,17 @@ class FailureFinder {
     const double limit = limitFor(static_cast<double>(bins.size()));
     std::vector<int> signs;
     for (const ResidualBin& bin : bins) {
-      const bool acts = bin.count >= kFewest && isForce(bin.mean, bin.standard_error, limit);
+      const bool acts = bin.count >= kCompareTuning.fewest_samples && isForce(bin.mean, bin.standard_error, limit);
       signs.push_back(!acts ? 0 : bin.mean > 0.0 ? 1 : -1);
     }
     std::vector<BinRange> ranges = rangesOf(bins, signs);
     std::sort(ranges.begin(), ranges.end(), [](const BinRange& a, const BinRange& b) {
       return a.count * square(a.mean()) > b.count * square(b.mean());
     });
-    if (ranges.size() > kMostRanges) ranges.resize(kMostRanges);
+    if (ranges.size() > kCompareTuning.most_ranges) ranges.resize(kCompareTuning.most_ranges);
     // Where a fit makes up for a force elsewhere, the model is wrong, too, but this is not where it fails.
-    if (ranges.size() == kMostRanges && ranges.back().rms() < rmsElsewhere(ranges.back())) ranges.pop_back();
+    if (ranges.size() == kCompareTuning.most_ranges && ranges.back().rms() < rmsElsewhere(ranges.back()))
+      ranges.pop_back();
     return ranges;
   }
 
@@ -127,12 +123,12 @@ class FailureFinder {
     for (const ResidualBin& bin : bins) {
       BinRange alone;
       alone.add(bin);
-      marks.push_back(bin.count >= kFewest && exceedsNoise(square(bin.rms), alone.count, limit) &&
+      marks.push_back(bin.count >= kCompareTuning.fewest_samples && exceedsNoise(square(bin.rms), alone.count, limit) &&
                       bin.rms > contrast * rmsElsewhere(alone));
     }
     std::vector<BinRange> ranges = rangesOf(bins, marks);
     std::sort(ranges.begin(), ranges.end(), [](const BinRange& a, const BinRange& b) { return a.squares > b.squares; });
-    if (ranges.size() > kMostRanges) ranges.resize(kMostRanges);
+    if (ranges.size() > kCompareTuning.most_ranges) ranges.resize(kCompareTuning.most_ranges);
     return ranges;
   }
 
@@ -162,7 +158,7 @@ class FailureFinder {
     if (findDrift(first, last)) return;
     const std::vector<ResidualBin> bins(views_.time.begin() + static_cast<std::ptrdiff_t>(first),
                                         views_.time.begin() + static_cast<std::ptrdiff_t>(last));
-    for (const BinRange& range : noisy(bins, kContrastInTime)) {
+    for (const BinRange& range : noisy(bins, kCompareTuning.contrast_in_time)) {
       FailureRegion region = regionOf(FailureView::kTime, range, bins[range.first].from, bins[range.last - 1].to);
       region.drive = views_.time[first].drive;
       found_.push_back(region);
@@ -188,7 +184,7 @@ class FailureFinder {
       if (!(weights[0] > 0.0 && weights[1] > 0.0)) return;
       const double change = means[1] - means[0];
       const double t = std::abs(change) / std::sqrt(1.0 / weights[0] + 1.0 / weights[1]);
-      if (t <= largest || std::abs(change) <= kWorthATrend * whole) return;
+      if (t <= largest || std::abs(change) <= kCompareTuning.least_trend * whole) return;
       largest = t;
       found = regionOf(FailureView::kTime, range, views_.time[first].from, views_.time[last - 1].to);
       found.drive = views_.time[first].drive;
@@ -227,7 +223,7 @@ class FailureFinder {
     Eigen::Index row = 0, column = 0;
     for (Eigen::Index i = 0; i < sums.rows(); ++i)
       for (Eigen::Index j = 0; j < sums.cols(); ++j) {
-        if (surface.count(i, j) < static_cast<int>(kFewest)) continue;
+        if (surface.count(i, j) < static_cast<int>(kCompareTuning.fewest_samples)) continue;
         const double by_travel = sums.row(i).sum() / counts.row(i).sum();
         const double by_rate = sums.col(j).sum() / counts.col(j).sum();
         const double mean = surface.mean(i, j);

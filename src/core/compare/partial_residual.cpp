@@ -3,15 +3,11 @@
 #include <utility>
 
 #include "suspension_health_monitor/internal/compare/comparison.h"
+#include "suspension_health_monitor/internal/compare/tuning.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-constexpr std::size_t kBins = 28;
-constexpr std::size_t kColumns = 18, kRows = 14;
-constexpr std::size_t kFewestInCell = 3;
-constexpr std::size_t kProbes = 200;
 
 struct Sample {
   StrutMotion motion;
@@ -41,7 +37,7 @@ double forceOf(const ActiveEffect& active, const StrutMotion& motion) {
 
 /// Whether the force of some samples changes when one of its variables is taken from other samples.
 bool dependsOn(const ActiveEffect& active, ForceVariable variable, const std::vector<Sample>& samples) {
-  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kProbes);
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kCompareTuning.probes);
   for (std::size_t i = 0; i < samples.size(); i += stride) {
     StrutMotion other = samples[i].motion;
     setValue(other, variable, valueOf(samples[(i + samples.size() / 2 + 1) % samples.size()].motion, variable));
@@ -94,13 +90,13 @@ void finish(PartialResidualBin& bin) {
 
 /// @param direction  +1 compressing, -1 extending, 0 both.
 std::vector<PartialResidualBin> curveOver(const std::vector<Sample>& samples, ForceVariable variable, int direction) {
-  const std::vector<double> edges = edgesOver(samples, variable, kBins);
-  std::vector<PartialResidualBin> curve(kBins + 1);  // the last one for what is outside
+  const std::vector<double> edges = edgesOver(samples, variable, kCompareTuning.bins);
+  std::vector<PartialResidualBin> curve(kCompareTuning.bins + 1);  // the last one for what is outside
   for (const Sample& sample : samples)
     if (direction == 0 || direction * sample.motion.travel_rate > 0.0)
       add(sample, curve[rangeOf(edges, valueOf(sample.motion, variable))]);
   curve.pop_back();
-  for (std::size_t i = 0; i < kBins; ++i) {
+  for (std::size_t i = 0; i < kCompareTuning.bins; ++i) {
     curve[i].at = 0.5 * (edges[i] + edges[i + 1]);
     finish(curve[i]);
   }
@@ -110,9 +106,10 @@ std::vector<PartialResidualBin> curveOver(const std::vector<Sample>& samples, Fo
 }
 
 PartialResidualGrid gridOver(const std::vector<Sample>& samples, ForceVariable first, ForceVariable second) {
-  PartialResidualGrid grid{edgesOver(samples, first, kColumns), edgesOver(samples, second, kRows), {}};
+  PartialResidualGrid grid{
+      edgesOver(samples, first, kCompareTuning.columns), edgesOver(samples, second, kCompareTuning.rows), {}};
   // The last ones for what is outside.
-  grid.cells.assign(kColumns + 1, std::vector<PartialResidualBin>(kRows + 1));
+  grid.cells.assign(kCompareTuning.columns + 1, std::vector<PartialResidualBin>(kCompareTuning.rows + 1));
   for (const Sample& sample : samples)
     add(sample, grid.cells[rangeOf(grid.first_edges, valueOf(sample.motion, first))]
                           [rangeOf(grid.second_edges, valueOf(sample.motion, second))]);
@@ -121,7 +118,7 @@ PartialResidualGrid gridOver(const std::vector<Sample>& samples, ForceVariable f
     column.pop_back();
     for (PartialResidualBin& cell : column) {
       finish(cell);
-      if (cell.count < kFewestInCell) cell = {};
+      if (cell.count < kCompareTuning.fewest_in_cell) cell = {};
     }
   }
   return grid;

@@ -8,19 +8,15 @@
 #include "residual_correlation.h"
 #include "residual_series.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
+#include "suspension_health_monitor/internal/compare/tuning.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kCovered = 0.99;  // of the samples, by even edges
-
-constexpr double kMostTimeBins = 24.0;    // of all drives together
-constexpr double kShortestTimeBin = 4.0;  // natural periods
 const std::vector<double> kShares{0.0, 0.01, 0.03, 0.06, 0.1,  0.2,  0.3,  0.4, 0.5,
                                   0.6, 0.7,  0.8,  0.9,  0.94, 0.97, 0.99, 1.0};
 const std::vector<double> kLoopShares{0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.0};
-constexpr int kCells = 12;  // of the force surface, either way; even: one edge is 0
 
 /// Sums over the samples of a bin.
 struct BinSums {
@@ -78,7 +74,8 @@ std::vector<double> evenEdges(const std::vector<double>& values) {
   const auto [from, to] = coveredRange(values);
   const double reach = std::max(std::abs(from), std::abs(to));
   std::vector<double> edges;
-  for (int i = 0; i <= kCells; ++i) edges.push_back(reach * (2.0 * i / kCells - 1.0));
+  for (int i = 0; i <= kCompareTuning.force_cells; ++i)
+    edges.push_back(reach * (2.0 * i / kCompareTuning.force_cells - 1.0));
   return edges;
 }
 
@@ -123,7 +120,8 @@ void forEachDrive(const std::vector<ComparedSegment>& segments, const Take& take
 std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<ComparedSegment>& segments) {
   double duration = 0.0;
   forEachDrive(segments, [&](std::size_t, std::size_t, double from, double to) { duration += to - from; });
-  const double width = std::max(duration / kMostTimeBins, kShortestTimeBin * series.natural_period * series.period);
+  const double width = std::max(duration / kCompareTuning.most_time_bins,
+                                kCompareTuning.shortest_time_bin * series.natural_period * series.period);
   std::vector<TimeBin> bins;
   forEachDrive(segments, [&](std::size_t first, std::size_t last, double from, double to) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::floor((to - from) / width)));
@@ -186,16 +184,18 @@ ForceSurface mapForce(const ResidualSeries& series) {
   ForceSurface surface;
   surface.travel_edges = evenEdges(series.travel);
   surface.rate_edges = evenEdges(series.rate);
-  std::vector<BinSums> sums(kCells * kCells);
+  std::vector<BinSums> sums(kCompareTuning.force_cells * kCompareTuning.force_cells);
   for (std::size_t n = 0; n < series.size(); ++n)
-    sums[binOf(surface.travel_edges, series.travel[n]) * kCells + binOf(surface.rate_edges, series.rate[n])].add(
-        series.missing[n], series.residual[n]);
-  surface.mean = surface.standard_error = surface.rms = Eigen::MatrixXd::Zero(kCells, kCells);
-  surface.count = Eigen::MatrixXi::Zero(kCells, kCells);
+    sums[binOf(surface.travel_edges, series.travel[n]) * kCompareTuning.force_cells +
+         binOf(surface.rate_edges, series.rate[n])]
+        .add(series.missing[n], series.residual[n]);
+  surface.mean = surface.standard_error = surface.rms =
+      Eigen::MatrixXd::Zero(kCompareTuning.force_cells, kCompareTuning.force_cells);
+  surface.count = Eigen::MatrixXi::Zero(kCompareTuning.force_cells, kCompareTuning.force_cells);
   double explained = 0.0;
-  for (int i = 0; i < kCells; ++i)
-    for (int j = 0; j < kCells; ++j) {
-      const BinSums& cell = sums[static_cast<std::size_t>(i * kCells + j)];
+  for (int i = 0; i < kCompareTuning.force_cells; ++i)
+    for (int j = 0; j < kCompareTuning.force_cells; ++j) {
+      const BinSums& cell = sums[static_cast<std::size_t>(i * kCompareTuning.force_cells + j)];
       surface.count(i, j) = static_cast<int>(cell.count);
       if (cell.count < 2.0) continue;
       surface.mean(i, j) = cell.missing / cell.count;
@@ -211,7 +211,8 @@ ForceSurface mapForce(const ResidualSeries& series) {
 }  // namespace
 
 std::pair<double, double> coveredRange(std::vector<double> values) {
-  const std::vector<double> ends = quantiles(std::move(values), {0.5 * (1.0 - kCovered), 0.5 * (1.0 + kCovered)});
+  const std::vector<double> ends =
+      quantiles(std::move(values), {0.5 * (1.0 - kCompareTuning.covered), 0.5 * (1.0 + kCompareTuning.covered)});
   return {ends[0], ends[1]};
 }
 

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "residual_series.h"
+#include "suspension_health_monitor/internal/compare/tuning.h"
 
 namespace suspension_health_monitor {
 
-inline constexpr double kFewestLags = 20.0, kMostLags = 500.0;
-inline constexpr double kLagsOutside = 0.05;                         // of the lags, by chance
-inline const double kHalfBand = normalQuantile(0.5 * kLagsOutside);  // half the band's width, in standard deviations
-inline const double kUnlikely = normalQuantile(0.01);                // of the number of lags outside
+inline const double kHalfBand =
+    normalQuantile(0.5 * kCompareTuning.lags_outside);  // half the band's width, in standard deviations
+inline const double kUnlikely = normalQuantile(0.01);   // of the number of lags outside
 
 /// Response of z'' to a unit sample of w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): e^{At}, held over a sample.
 inline std::vector<double> impulseResponse(const LinearStrut& strut, double period, std::size_t length) {
@@ -47,8 +47,9 @@ inline void countOutside(double band, double dependence, ResidualCorrelation& re
     far_outside = far_outside || beyond > far;
   }
   result.share_outside = outside / lags;
-  const double spread = std::sqrt(kLagsOutside * (1.0 - kLagsOutside) * lags * dependence);
-  result.within = !far_outside && outside <= kLagsOutside * lags + kUnlikely * spread + 0.5;
+  const double spread =
+      std::sqrt(kCompareTuning.lags_outside * (1.0 - kCompareTuning.lags_outside) * lags * dependence);
+  result.within = !far_outside && outside <= kCompareTuning.lags_outside * lags + kUnlikely * spread + 0.5;
 }
 
 inline void addLag(int lag, double period, double value, double expected, double band, ResidualCorrelation& result) {
@@ -76,8 +77,9 @@ inline auto crossCorrelation(const ResidualSeries& series, const std::vector<dou
 inline std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const ResidualSeries& series,
                                                                      const LinearStrut& strut, double noise_floor) {
   const auto count = static_cast<double>(series.size());
-  const int lags =
-      static_cast<int>(std::min(std::clamp(std::round(series.natural_period), kFewestLags, kMostLags), count / 4.0));
+  const int lags = static_cast<int>(
+      std::min(std::clamp(std::round(series.natural_period), kCompareTuning.fewest_lags, kCompareTuning.most_lags),
+               count / 4.0));
   const std::vector<double> through = impulseResponse(strut, series.period, 8 * static_cast<std::size_t>(lags));
   const double share = 1.0 / (1.0 + sumOfSquares(through));  // of the floor's mean square: the body's own sensor
 
@@ -115,8 +117,6 @@ inline std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const Resid
   return {std::move(whiteness), std::move(cross_correlation)};
 }
 
-inline constexpr double kMemoryPeriods = 3.0;  // natural periods that a correlation is followed over
-
 inline void addAll(std::vector<double>& values, const std::vector<double>& more) {
   values.insert(values.end(), more.begin(), more.end());
 }
@@ -133,7 +133,8 @@ inline double takeMeanOff(std::vector<double>& values) {
 /// 1 + 2 sum of rho over the lags before the correlation first vanishes: by so much the variance of a mean grows.
 inline double memoryOf(const ResidualSeries& series, const std::vector<double>& values) {
   const double vanished = normalQuantile(0.025) / std::sqrt(static_cast<double>(values.size()));
-  const double most = std::min(kMemoryPeriods * series.natural_period, 0.125 * static_cast<double>(values.size()));
+  const double most =
+      std::min(kCompareTuning.memory_periods * series.natural_period, 0.125 * static_cast<double>(values.size()));
   const auto own = crossCorrelation(series, values, values);
   double sum = 1.0;
   for (int lag = 1; lag <= static_cast<int>(most); ++lag) {
