@@ -1,12 +1,15 @@
 // Prints what the monitor says of drives of many kinds (drive_families.h), whose readings arrive as two streams on
 // their own stamps; default settings.
-//   family_table [families|steps|friction|all [SEED]]      another SEED: other roads and noise, everything else alike
+//   family_table [families|steps|friction|time|all [SEED]]      another SEED: other roads and noise, everything else
+//   alike
 //
 // families: healthy struts with nominal values, per kind of drive. Judged: time at another level than STALE, from 20 s
 // on. Bias: the median error of the valid estimates of a drive. Estimates are looked at once per second, not in the
 // first 20 s, nor in those after the load has changed. WARN, ERROR: how often either was raised.
 // steps: damper or spring weaker from 120 s on; ramps: damping -33 % between 40 and 100 s, -15 % at 67, -30 % at 94 s.
-// friction: a baseline that is learned in 120 s on one road, then the same strut, or a worn one, on another for 300 s.
+// time: the first seconds of a healthy drive predict how many more make the estimate half as uncertain, or three
+// quarters. friction: a baseline that is learned in 120 s on one road, then the same strut, or a worn one, on another
+// for 300 s.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -231,6 +234,49 @@ void printFriction(unsigned seed) {
   });
 }
 
+/// More seconds until the estimate is half as uncertain.
+struct Wait {
+  double predicted = 0.0, passed = kNever;
+};
+
+Wait measureTime(const FamilyDrive& drive) {
+  constexpr double kEvery = 5.0, kFirstLook = 30.0, kTarget = 0.5;  // [s]; of what it is known to then
+  double wanted = 0.0, asked_at = 0.0, look_at = kFirstLook;
+  Wait wait;
+  VehiclePipeline pipeline = pipelineFor(drive.field);
+  follow({drive.field, drive.delivery}, drive.seconds, pipeline, [&](double time, const MonitorReport&) {
+    if (time < look_at || std::isfinite(wait.passed)) return;
+    look_at += kEvery;
+    const StrutEstimate estimate = pipeline.overTheDrive();
+    const double known_to = estimate.knownTo();
+    if (!(known_to > 0.0)) return;
+    if (asked_at == 0.0) {
+      asked_at = time, wanted = kTarget * known_to;
+      wait.predicted = estimate.secondsUntil(wanted);
+    } else if (known_to <= wanted) {
+      wait.passed = time - 0.5 * kEvery - asked_at;
+    }
+  });
+  return wait;
+}
+
+void printTime(unsigned seed) {
+  std::printf("| drives | n | predicted within a factor of 1.5 [%%] | predicted, passed [s] |\n|---|---|---|---|\n");
+  Share all;
+  const HealthyFamilies healthy(seed);
+  for (const DriveFamily& family : healthy.families()) {
+    Share right;
+    std::string waits;
+    measureEach(family.drives, measureTime, [&](const FamilyDrive&, const Wait& wait) {
+      right.add(wait.passed < 1.5 * wait.predicted && wait.passed > wait.predicted / 1.5);
+      waits += " " + secondsText(wait.predicted) + ", " + secondsText(wait.passed) + ";";
+    });
+    std::printf("| %s | %.0f | %.0f |%s |\n", family.name.c_str(), right.looks, right.percent(), waits.c_str());
+    all.looks += right.looks, all.hits += right.hits;
+  }
+  std::printf("| all | %.0f | %.0f | |\n", all.looks, all.percent());
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor
 
@@ -240,11 +286,12 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "all";
   const unsigned seed = 1 + 1000 * (argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 0);
   const bool all = what == "all";
-  if (!all && what != "families" && what != "steps" && what != "friction")
-    return std::fprintf(stderr, "usage: family_table [families|steps|friction|all [SEED]]\n"), 2;
+  if (!all && what != "families" && what != "steps" && what != "friction" && what != "time")
+    return std::fprintf(stderr, "usage: family_table [families|steps|friction|time|all [SEED]]\n"), 2;
   if (all || what == "families") printFamilies(seed);
   if (all || what == "steps") printChanges("step", stepDrives(seed + 100));
   if (all || what == "steps") printChanges("ramp", rampDrives(seed + 200));
   if (all || what == "friction") printFriction(seed + 300);
+  if (all || what == "time") printTime(seed);
   return 0;
 }

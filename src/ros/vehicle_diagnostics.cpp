@@ -112,16 +112,11 @@ CornerComparison toMsg(const CornerComparisonReport& report, Stamp stamp) {
 }  // namespace
 
 std::optional<CornerOutput> CornerOutput::of(ros::NodeHandle& node, const std::vector<std::string>& struts) {
-  Places places{};
-  for (std::size_t i = 0; i < kNumCorners; ++i) {
-    const auto corner = std::find(struts.begin(), struts.end(), kCornerNames[i]);
-    if (corner == struts.end()) return std::nullopt;
-    places[i] = static_cast<std::size_t>(corner - struts.begin());
-  }
-  return CornerOutput(node, places);
+  const std::optional<CornerPlaces> places = cornersAmong(struts);
+  return places ? std::optional(CornerOutput(node, *places)) : std::nullopt;
 }
 
-CornerOutput::CornerOutput(ros::NodeHandle& node, const Places& places)
+CornerOutput::CornerOutput(ros::NodeHandle& node, const CornerPlaces& places)
     : places_(places), publisher_(node.advertise<CornerComparison>("corners/comparison", 1, true)) {}
 
 // The estimates stay valid when the sensors fall silent, so a judgement without a new sample counts none of them.

@@ -36,13 +36,11 @@ class CornerOutput {
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
-  using Places = std::array<std::size_t, kNumCorners>;
-
-  CornerOutput(ros::NodeHandle& node, const Places& places);
+  CornerOutput(ros::NodeHandle& node, const CornerPlaces& places);
 
   CornerComparisonReport judge(const MessagePipeline* pipeline);
 
-  Places places_;  // of the corners among the struts
+  CornerPlaces places_;  // of the corners among the struts
   ros::Publisher publisher_;
   Stamp newest_{};  // sample at the last judgement
   CornerComparisonReport last_ = compareCorners({}), confirmed_ = last_;

@@ -14,6 +14,7 @@
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/math/digest.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
@@ -159,6 +160,26 @@ json findingsOf(const RecordedMonitor& recorded, std::size_t strut, const Health
   return result;
 }
 
+/// @return the corners over all the drives; nothing of other vehicles.
+std::optional<CornerComparisonReport> cornersOf(RecordedMonitor& recorded) {
+  const std::optional<CornerPlaces> places = cornersAmong(recorded.vehicle().names);
+  if (!places) return {};
+  std::array<CornerState, kNumCorners> corners;
+  for (std::size_t i = 0; i < kNumCorners; ++i)
+    corners[i] = {recorded.overTheDrive((*places)[i]), recorded.strut((*places)[i]).baseline()};
+  return compareCorners(corners);
+}
+
+json toJson(const CornerComparisonReport& corners) {
+  json damages = json::array();
+  for (const CornerDamage& damage : corners.damages)
+    damages.push_back({{"corner", kCornerNames[damage.corner]},
+                       {"part", corners.verdicts[damage.corner] == CornerVerdict::kDamper ? "damping" : "stiffness"},
+                       {"change", damage.change},
+                       {"stddev_of_log", damage.stddev}});
+  return {{"level", nameOf(corners.level)}, {"message", describe(corners)}, {"damages", damages}};
+}
+
 void watchBags(const po::variables_map& values) {
   const BagOptions options = readLiveOptions(values);
   const AskedVehicle& vehicle = options.vehicle;
@@ -175,6 +196,8 @@ void watchBags(const po::variables_map& values) {
     vehicle.resultsOf(i, whole).update(result);
     if (files.page) struts.push_back(findingsOf(recorded, i, files.courses[i], recordings, result));
   }
+  const std::optional<CornerComparisonReport> corners = cornersOf(recorded);
+  if (corners) whole["corners"] = toJson(*corners);
   if (files.findings) files.findings->commit(whole.dump(2) + '\n');
   if (files.csv) files.csv->commit();
   if (files.page)
@@ -184,6 +207,7 @@ void watchBags(const po::variables_map& values) {
     std::printf("\n%s", vehicle.prefix(i, ", ").c_str());
     printHealth(recorded.log(i), recorded.strut(i), recorded.reference(i));
   }
+  if (corners) std::printf("\nover the drive: %s\n", describe(*corners).c_str());
 }
 
 }  // namespace

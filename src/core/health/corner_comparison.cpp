@@ -76,12 +76,17 @@ Part changedPart(const Deviation& deviation) {
   return std::abs(deviation[kDamping]) >= std::abs(deviation[kStiffness]) ? kDamping : kStiffness;
 }
 
+// Another load changes damping and stiffness of a corner alike, and not as much as the other wheel's. So where only one
+// of the two is damaged the other one of the same corner says what the load did.
 void accuse(CornerComparisonReport& report, std::size_t corner, const Change& ratio,
             const std::optional<std::size_t>& partner = {}) {
-  const Part part = changedPart(ratio.size);
+  const Part part = changedPart(ratio.size), other = part == kDamping ? kStiffness : kDamping;
+  const bool both = counts(ratio.size[other], ratio.variance[other]);
+  const double size = both ? ratio.size[part] : ratio.size[part] - ratio.size[other];
   report.verdicts[corner] = part == kDamping ? CornerVerdict::kDamper : CornerVerdict::kSpring;
   report.level = HealthLevel::kWarn;
-  report.damages.push_back({corner, std::expm1(ratio.size[part]), std::sqrt(ratio.variance[part]), partner});
+  report.damages.push_back(
+      {corner, std::expm1(size), std::sqrt(both ? ratio.variance[part] : ratio.variance[kStrut]), partner});
 }
 
 // Accuses the corner furthest from the others, takes it out, and so on.
@@ -142,6 +147,16 @@ void compareAxles(const Changes& changes, const Members& valid, CornerComparison
 }
 
 }  // namespace
+
+std::optional<CornerPlaces> cornersAmong(const std::vector<std::string>& struts) {
+  CornerPlaces places{};
+  for (std::size_t i = 0; i < kNumCorners; ++i) {
+    const auto corner = std::find(struts.begin(), struts.end(), kCornerNames[i]);
+    if (corner == struts.end()) return std::nullopt;
+    places[i] = static_cast<std::size_t>(corner - struts.begin());
+  }
+  return places;
+}
 
 CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>& corners) {
   CornerComparisonReport report;

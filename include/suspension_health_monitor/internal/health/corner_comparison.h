@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +14,12 @@ namespace suspension_health_monitor {
 inline constexpr std::size_t kNumCorners = 4;
 inline constexpr std::array<std::string_view, kNumCorners> kCornerNames{"front_left", "front_right", "rear_left",
                                                                         "rear_right"};
+
+/// The places of the corners among the struts of a vehicle.
+using CornerPlaces = std::array<std::size_t, kNumCorners>;
+
+/// @return nothing if a strut is missing that has the name of a corner.
+std::optional<CornerPlaces> cornersAmong(const std::vector<std::string>& struts);
 
 /// What is known of one strut of four; so far nothing.
 struct CornerState {
