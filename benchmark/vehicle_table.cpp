@@ -277,9 +277,17 @@ void printDamage(const char* kind, unsigned seed, const Setup& how) {
   if (driven.size() != kNumCorners) return;
   const auto corners = [&] {
     drive(driven);
-    return identifyVehicle({driven.asMeasured()}, driven.names).struts;
+    const VehicleDrive drive = driven.asMeasured();
+    MonitorSettings settings;
+    settings.sample_period = driven.period();
+    VehicleMonitor monitor(std::vector<MonitorSettings>(kNumCorners, settings), [](auto&&...) {});
+    for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+    monitor.fitBody();
+    std::array<StrutEstimate, kNumCorners> estimates;
+    for (std::size_t i = 0; i < kNumCorners; ++i) estimates[i] = monitor.overTheDrive(i);
+    return estimates;
   };
-  const std::vector<IdentifyResult> healthy = corners();
+  const auto healthy = corners();
   std::mt19937 random(seed * 31 + 5);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -295,12 +303,9 @@ void printDamage(const char* kind, unsigned seed, const Setup& how) {
   for (vehicle_drive::Strut& strut : vehicle.struts) strut.x += ahead, strut.y += aside;
   vehicle.speed *= between(0.7, 1.4), vehicle.roughness *= std::pow(4.0, between(-0.5, 1.0));
   driven.options.seed += 1000;
-  const std::vector<IdentifyResult> damaged = corners();
+  const auto damaged = corners();
   std::array<CornerState, kNumCorners> states;
-  for (std::size_t i = 0; i < std::min(healthy.size(), damaged.size()); ++i) {
-    states[i].estimate = damaged[i].estimate;
-    states[i].healthy = baselineOf(healthy[i].estimate, {});
-  }
+  for (std::size_t i = 0; i < kNumCorners; ++i) states[i] = {damaged[i], baselineOf(healthy[i], {})};
   const CornerComparisonReport report = compareCorners(states);
   const bool is_right = report.damages.size() == 1 && report.damages[0].corner == at &&
                         report.verdicts[at] == (in_damper ? CornerVerdict::kDamper : CornerVerdict::kSpring);

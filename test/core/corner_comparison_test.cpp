@@ -46,7 +46,8 @@ TEST(CornerComparison, NamesTheOneCornerWhoseDamperIsWornWhicheverItIs) {
     corners[worn].estimate.damping_to_mass *= 0.72;
     const CornerComparisonReport report = compareCorners(corners);
     EXPECT_EQ(report.level, HealthLevel::kWarn);
-    EXPECT_EQ(describe(report), std::string(kCornerNames[worn]) + " damping 28 % below the other corners (26 to 30 %): damage");
+    EXPECT_EQ(describe(report),
+              std::string(kCornerNames[worn]) + " damping 28 % below the other corners (25 to 31 %): damage");
     EXPECT_NEAR(*report.damping_deviation[worn], -0.28, 1e-12);
     EXPECT_NEAR(*report.stiffness_deviation[worn], 0.0, 1e-12);
     for (std::size_t i = 0; i < kNumCorners; ++i)
@@ -82,6 +83,41 @@ TEST(CornerComparison, TellsDamperFromSpringUnderLoad) {
     EXPECT_EQ(compareCorners(spring).verdicts[kRearLeft], CornerVerdict::kSpring) << mass_ratio;
     EXPECT_EQ(compareCorners(spring).verdicts[kFrontRight], CornerVerdict::kAlike) << mass_ratio;
   }
+}
+
+TEST(CornerComparison, TheSizeOfADamageIsFreeOfTheLoadOnThatWheel) {
+  for (const double mass_ratio : {0.9, 1.0, 1.12}) {
+    Corners damper = healthyCorners(), spring = healthyCorners();
+    damper[kRearLeft].estimate.damping_to_mass *= 0.7;
+    spring[kRearLeft].estimate.stiffness_to_mass *= 0.7;
+    for (Corners* corners : {&damper, &spring}) {
+      load((*corners)[kRearLeft], mass_ratio);
+      const CornerComparisonReport report = compareCorners(*corners);
+      ASSERT_EQ(report.damages.size(), 1u);
+      EXPECT_EQ(report.verdicts[kRearLeft], corners == &damper ? CornerVerdict::kDamper : CornerVerdict::kSpring);
+      EXPECT_NEAR(report.damages[0].change, -0.3, 1e-12);
+    }
+  }
+}
+
+TEST(CornerComparison, AWeakerSpringUnderASmallerLoadIsNoStrongerDamper) {
+  Corners corners = healthyCorners();
+  corners[kFrontRight].estimate.stiffness_to_mass *= 0.8;
+  load(corners[kFrontRight], 0.88);  // damping 14 % above, stiffness 9 % below
+  const CornerComparisonReport report = compareCorners(corners);
+  EXPECT_EQ(report.verdicts[kFrontRight], CornerVerdict::kSpring);
+  Corners replaced = healthyCorners();
+  replaced[kFrontRight].estimate.damping_to_mass *= 1.4;  // no load is so small
+  EXPECT_EQ(compareCorners(replaced).verdicts[kFrontRight], CornerVerdict::kDamper);
+}
+
+TEST(CornerComparison, SmallDifferencesOfTheOthersHideNoDamage) {
+  Corners corners = healthyCorners();
+  corners[kFrontRight].estimate.damping_to_mass *= 1.02;
+  corners[kRearLeft].estimate.damping_to_mass *= 1.01;
+  corners[kRearRight].estimate.damping_to_mass *= 1.03;
+  corners[kFrontLeft].estimate.damping_to_mass *= 0.85;
+  EXPECT_EQ(compareCorners(corners).verdicts[kFrontLeft], CornerVerdict::kDamper);
 }
 
 TEST(CornerComparison, WarmDampersAccuseNone) {

@@ -15,7 +15,8 @@ using Deviation = Eigen::Array3d;  // ln of a ratio by Part; kStrut: damping les
 
 // One corner against the healthy strut.
 struct Change {
-  Deviation size = Deviation::Zero(), variance = size;  // correlation of damping and stiffness neglected
+  Deviation size = Deviation::Zero();
+  Deviation variance = Deviation::Zero();  // correlation of damping and stiffness neglected
 };
 
 using Changes = std::array<Change, kNumCorners>;
@@ -67,13 +68,20 @@ bool has(const Members& members, std::size_t corner) {
   return std::find(members.begin(), members.end(), corner) != members.end();
 }
 
+// As ln of a ratio.
+double leastDamage() { return std::abs(std::log1p(-HealthThresholds().damping_warn)); }
+
 bool counts(double deviation, double variance) {
-  return std::abs(deviation) > std::abs(std::log1p(-HealthThresholds().damping_warn)) &&
-         square(deviation) > square(kProven) * variance;
+  return std::abs(deviation) > leastDamage() && square(deviation) > square(kProven) * variance;
 }
 
+// Dampers and springs get weaker. That one of them got stronger explains the same by another load, so it is said only
+// where that the other one got weaker would need a load that is none between two wheels.
 Part changedPart(const Deviation& deviation) {
-  return std::abs(deviation[kDamping]) >= std::abs(deviation[kStiffness]) ? kDamping : kStiffness;
+  const Part weaker = deviation[kStrut] < 0.0 ? kDamping : kStiffness,
+             other = weaker == kDamping ? kStiffness : kDamping;
+  const bool is_load = std::abs(deviation[other]) < leastDamage();
+  return is_load || std::abs(deviation[weaker]) >= std::abs(deviation[other]) ? weaker : other;
 }
 
 // Another load changes damping and stiffness of a corner alike, and not as much as the other wheel's. So where only one
