@@ -86,6 +86,11 @@ struct Response {
   std::vector<double> damping;  // b1 of each wheel [1/s]
   std::vector<double> worth;    // share of the motion that is unexplained without it
   double explained = 0.0, delay = 0.0;
+
+  double dampingOf(std::size_t wheel) const {
+    const auto place = std::find(wheels.begin(), wheels.end(), wheel) - wheels.begin();
+    return static_cast<std::size_t>(place) < wheels.size() ? damping[static_cast<std::size_t>(place)] : 0.0;
+  }
 };
 
 class Pairing {
@@ -256,7 +261,8 @@ std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const
     const std::optional<std::size_t> signal = bodyOver(wheel, push, signals, bodies);
     if (!signal) continue;
     const std::size_t body = signals.owners[*signal];
-    const bool is_reversed = push(static_cast<Index>(body), wheel) < 0.0;
+    // Of a wheel that was found by how it turns the body, too: which way it pushes is known better than how hard.
+    const bool is_reversed = bodies[body]->dampingOf(static_cast<std::size_t>(wheel)) < 0.0;
     all.push_back({body, static_cast<std::size_t>(wheel), is_reversed, true, bodies[body]->explained, 0.0, 0.0,
                    bodies[body]->delay});
     ++served[body];
