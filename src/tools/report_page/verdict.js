@@ -39,13 +39,14 @@ function headline(findings) {
 /** One sentence per effect: its name, where to look, its size. */
 function effectSentence(findings, name) {
   const {law, finding, advice} = kindOf(findings, name);
+  const isHarmless = (findings.search.costs || []).some(({effect, harmless}) => effect === name && harmless);
   const sizes = numbersOf(findings, name, findings.search.extended, findings.search.extended.stddevs);
   const [what, where] = whatAndWhere(finding);
   return element(
       'p', {class: 'answer'}, element('b', {'data-effect': name}, capitalised(spoken(name))), ', ',
       element('code', {}, law), ` with ${joined(sizes)}. `,
       `What a workshop would find: ${what}${where ? ` (${where})` : ''}. `,
-      advice ? element('span', {class: 'advice'}, advice) : null);
+      advice && !isHarmless ? element('span', {class: 'advice'}, advice) : null);
 }
 
 /** @param share  of the error that a free-form force of travel and travel rate could explain. */
@@ -128,7 +129,7 @@ function verdictSection(findings) {
       element(
           'h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, selected.length)), element('br'),
           headline(findings)),
-      ofVehicle(findings), findings.change ? element('p', {class: 'change'}, `${capitalised(findings.change)}.`) : null,
-      selected.map(name => effectSentence(findings, name)), nextSteps(findings),
-      keyFigures(findings));
+      costLines(findings.search), ofVehicle(findings),
+      findings.change ? element('p', {class: 'change'}, `${capitalised(findings.change)}.`) : null,
+      selected.map(name => effectSentence(findings, name)), nextSteps(findings), keyFigures(findings));
 }
