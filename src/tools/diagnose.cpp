@@ -11,9 +11,7 @@
 #include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
-#include "suspension_health_monitor/internal/wording/cost_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
-#include "travel_output.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -9,8 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kFitted = 2.0 / 3.0;  // of the samples; the others are held out
-
 /// @return the model that was fitted with all that was found but these; none: there is no such fit.
 const RankedModel* without(const Diagnosis& found, const std::vector<std::string>& left_out) {
   std::vector<std::string> names;
@@ -42,9 +40,9 @@ EffectCost costOf(const Diagnosis& found, const RankedModel& before, const std::
     if (reading.coefficients.size() == 1)
       cost.size = unit == "-" ? formatted("%.3g", c) : ReadableUnit(std::abs(c), unit)(c);
   }
-  cost.fits_without = found.selected.size() > 1 || found.base_fit_percent > 0.0;
+  cost.fits_without = &before != &found.base || found.base_fit_percent > 0.0;  // else b1 and b0 are rough
   const StrutModel &less = before.model, &more = found.extended->model;
-  const double scale = final_fit.all_samples ? std::sqrt(1.0 / kFitted) : 1.0;
+  const double scale = final_fit.all_samples ? std::sqrt(1.5) : 1.0;  // to two thirds of the samples
   cost.damping = changeOf(less.damping_to_mass, more.damping_to_mass, scale * final_fit.stddev[0]);
   cost.stiffness = changeOf(less.stiffness_to_mass, more.stiffness_to_mass, scale * final_fit.stddev[1]);
   return cost;
@@ -63,11 +61,9 @@ bool EffectCost::isHarmless() const {
 std::vector<EffectCost> costsOf(const Diagnosis& found) {
   std::vector<EffectCost> costs;
   if (!found.extended || !found.final_fit) return costs;
-  for (const std::string& effect : found.selected) {
-    const RankedModel* before = without(found, {effect});
-    if (before == nullptr) return {costOf(found, found.base, found.selected)};
-    costs.push_back(costOf(found, *before, {effect}));
-  }
+  for (const std::string& effect : found.selected)
+    if (const RankedModel* before = without(found, {effect})) costs.push_back(costOf(found, *before, {effect}));
+  if (costs.size() < found.selected.size()) costs.push_back(costOf(found, found.base, found.selected));
   return costs;
 }
 

@@ -18,7 +18,7 @@ struct RelativeChange {
 
 /// What an effect that was found does to b1 and b0 if a model leaves it out.
 struct EffectCost {
-  std::string effect;        ///< of several that were fitted only together all names
+  std::string effect;        ///< of all together their names
   std::string size;          ///< of a sensor's fault with one coefficient, in words: "1.2 ms"; else empty
   std::string advice;        ///< of a sensor's fault
   bool fits_without = true;  ///< false: no strut fits without it, and the changes are unknown
@@ -27,7 +27,8 @@ struct EffectCost {
   bool isHarmless() const;  ///< a sensor's fault that moves neither by 5 %: there is nothing to do
 };
 
-/// @return by effect of Diagnosis::selected, from the fits with it and without it to the same two thirds of the drives.
+/// @return by effect of Diagnosis::selected, from the fits with it and without it to the same two thirds of the drives;
+/// if there is no fit without one of them, at last also of all together.
 /// The difference of a fit with more parameters and of one with fewer has at most the variance of the former: Hausman,
 /// "Specification tests in econometrics", Econometrica 46 (1978).
 std::vector<EffectCost> costsOf(const Diagnosis& found);
