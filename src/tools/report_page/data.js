@@ -1,13 +1,11 @@
 // Whether the data is any good, as `suspension_bag check` says it: the first box of every page.
 
-const bandName = ({from, to}) => `${from} to ${to} Hz [m/s²]`;
-
-function dataRow({topic, verdict, rate, lost, noise, gravity, up_axis: up, rms = []}, {delay}, bands) {
+function dataRow({topic, verdict, rate, lost, noise, gravity, up_axis: up, rms = []}, {delay}) {
   const numbers = [
     isNumber(lost) ? percent(100 * lost) : '–', rounded(noise, 2),
     up ? `${up.replace('-', '−')}, ${isNumber(gravity) ? rounded(gravity) : 'none'}` : '–',
     isNumber(delay) ? (1e3 * delay).toFixed(1).replace('-', '−') : '–',
-    ...bands.map((_, i) => rounded((rms[i] || {}).rms, 2))
+    rms.map(band => rounded(band.rms, 2)).join(', ') || '–'
   ];
   return element(
       'tr', {'data-imu': topic}, element('td', {}, element('code', {}, topic)),
@@ -21,7 +19,7 @@ function dataBox({data: {topics, pairs}}) {
   const wrong = topics.filter(({verdict}) => verdict !== 'OK').map(({topic}) => topic);
   const reversed = pairs.filter(pair => pair.reversed).map(({sentence}) => sentence);
   const isFine = !wrong.length && !reversed.length;
-  const bands = (topics.find(({rms}) => rms) || {rms: []}).rms;
+  const bands = (topics.find(({rms}) => rms) || {rms: []}).rms.map(({from, to}) => `${from} to ${to}`).join(', ');
   const ofBody = topic => pairs.find(({own, body}) => own && body === topic) || {};
   const count = topics.length > 1 ? `all ${topics.length} IMUs are OK` : 'the IMU is OK';
   return element(
@@ -34,10 +32,9 @@ function dataBox({data: {topics, pairs}}) {
           [
             head('IMU'), head('rate [Hz]', 'number'), head('lost', 'number minor'),
             head('noise at most [m/s²]', 'number minor'), head('up, gravity [m/s²]', 'number minor'),
-            head('delay [ms]', 'number minor'), bands.map(band => head(`moves at ${bandName(band)}`, 'number minor')),
-            head('verdict')
+            head('delay [ms]', 'number minor'), head(`moves at ${bands} Hz [m/s²]`, 'number minor'), head('verdict')
           ],
-          topics.map(each => dataRow(each, ofBody(each.topic), bands))),
+          topics.map(each => dataRow(each, ofBody(each.topic)))),
       reversed.map(sentence => element('p', {}, `${capitalised(sentence)}.`)),
       element(
           'p', {class: 'lede'},

@@ -8,6 +8,12 @@ function whatAndWhere(finding) {
   return colon < 0 ? [finding, ''] : [finding.slice(0, colon), finding.slice(colon + 2)];
 }
 
+/** The same in a sentence: "dry friction (seal, bent rod, top mount)". */
+function foundWith(finding) {
+  const [what, where] = whatAndWhere(finding);
+  return where ? `${what} (${where})` : what;
+}
+
 /** The effects that the drive cannot tell from the one named, itself first. */
 function rivalsOf(findings, name) {
   const group = findings.search.indistinguishable.find(each => each.includes(name)) || [];
@@ -41,11 +47,10 @@ function effectSentence(findings, name) {
   const {law, finding, advice} = kindOf(findings, name);
   const isHarmless = (findings.search.costs || []).some(({effect, harmless}) => effect === name && harmless);
   const sizes = numbersOf(findings, name, findings.search.extended, findings.search.extended.stddevs);
-  const [what, where] = whatAndWhere(finding);
   return element(
       'p', {class: 'answer'}, element('b', {'data-effect': name}, capitalised(spoken(name))), ', ',
       element('code', {}, law), ` with ${joined(sizes)}. `,
-      `What a workshop would find: ${what}${where ? ` (${where})` : ''}. `,
+      `What a workshop would find: ${foundWith(finding)}. `,
       advice && !isHarmless ? element('span', {class: 'advice'}, advice) : null);
 }
 
