@@ -3,9 +3,9 @@
 
 cmake_minimum_required(VERSION 3.16)
 # The order of the scripts: what others use comes first.
-set(shared elements numbers verdict_words theme axes saving plot layers origin)
+set(shared elements numbers verdict_words theme axes saving plot layers origin data)
 set(searchTemplate_title "Which effect is missing?")
-set(searchTemplate_scripts ${shared} heat_map drives time_zoom time_view verdict ladder views curves tables adding showing page)
+set(searchTemplate_scripts ${shared} heat_map drives time_zoom time_view verdict ladder views travel curves tables adding showing page)
 set(vehicleTemplate_title "Which strut lacks what?")
 set(vehicleTemplate_scripts ${shared} vehicle_drawing vehicle_verdict vehicle_tables showing vehicle_page)
 set(healthTemplate_title "How healthy is the strut?")

@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
+#include "suspension_health_monitor/internal/compare/travel_statistics.h"
 #include "suspension_health_monitor/internal/fit/curve_fit.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor/monitor_settings.h"
@@ -134,6 +135,12 @@ StrutCurves strutCurves(const std::vector<Drive>& drives, const StrutModel& mode
                         const std::optional<double>& sample_period) {
   const PreparedDrives prepared = prepareDrives(drives, sample_period, std::nullopt, model);
   return fitCurves(pointersTo(prepared.records), prepared.start);
+}
+
+TravelStatistics travelStatistics(const std::vector<Drive>& drives, const StrutModel& model,
+                                  const std::optional<double>& sample_period) {
+  const PreparedDrives prepared = prepareDrives(drives, sample_period, std::nullopt, model);
+  return travelStatistics(pointersTo(prepared.records), prepared.start);
 }
 
 }  // namespace suspension_health_monitor

@@ -6,6 +6,7 @@
 
 #include "bag_options.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/compare/travel_statistics.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -20,5 +21,10 @@ void printCurves(const StrutCurves& curves, const std::optional<double>& mass);
 
 /// Adds "damper_curve" and "spring_curve", over the body's mass.
 void addCurves(const StrutCurves& curves, nlohmann::json& into);
+
+/// Tells people how far and how fast a strut moves, and how its stops are used; nothing of one that does not move.
+void printTravel(const TravelStatistics& travel);
+
+nlohmann::json toJson(const TravelStatistics& travel);
 
 }  // namespace suspension_health_monitor

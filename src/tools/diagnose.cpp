@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "../ros/model_file.h"
+#include "checked_imus.h"
 #include "command.h"
 #include "curve_output.h"
 #include "json_of.h"
@@ -46,6 +47,9 @@ void printFit(const FittedModel& fit) {
 
 void printSearch(const Diagnosis& found) {
   std::printf("%s\n", found.summary.c_str());
+  for (const EffectCost& cost : costsOf(found))
+    std::printf("%s%s%s\n", describe(cost).c_str(), cost.advice.empty() || cost.isHarmless() ? "" : " ",
+                cost.isHarmless() ? "" : cost.advice.c_str());
   if (!found.remainder.empty()) std::printf("%s\n", found.remainder.c_str());
   for (const std::vector<std::string>& group : found.indistinguishable)
     std::printf("These drives cannot tell apart: %s.\n", join(group, ", ").c_str());
@@ -81,6 +85,13 @@ void addNumbers(const StrutModel& model, json& into) {
   }
 }
 
+static json toJson(const EffectCost& cost) {
+  json row{{"effect", cost.effect}, {"sentence", describe(cost)}, {"harmless", cost.isHarmless()}};
+  for (const auto& [name, change] : {std::pair("damping", cost.damping), {"stiffness", cost.stiffness}})
+    if (change && cost.fits_without) row[name] = {{"change", change->value}, {"stddev", change->stddev}};
+  return row;
+}
+
 json toJson(const Diagnosis& found) {
   json ranking = json::array();
   for (const RankedModel& ranked : found.ranking) {
@@ -104,6 +115,7 @@ json toJson(const Diagnosis& found) {
                   {"stddevs", standardDeviations(*found.final_fit)}};
     addNumbers(found.final_fit->model, extended);
     whole["extended"] = extended;
+    for (const EffectCost& cost : costsOf(found)) whole["costs"].push_back(toJson(cost));
   }
   return whole;
 }
@@ -142,6 +154,9 @@ json tell(const VehicleDiagnosis& found, const AskedDrives& asked, const std::ve
       const StrutCurves curves = strutCurves(found.drives[i], strut.model(), asked.options.period());
       printCurves(curves, asked.options.settings.struts[i].monitor.sprung_mass);
       addCurves(curves, its);
+      const TravelStatistics travel = travelStatistics(found.drives[i], strut.model(), asked.options.period());
+      printTravel(travel);
+      its["travel"] = toJson(travel);
     } else {
       std::printf("the drives %s\n", strut.reason.c_str());
       its["reason"] = strut.reason;
@@ -185,7 +200,9 @@ void search(const po::variables_map& values) {
   if (file) file->commit(whole.dump(2) + '\n');
   if (model) model->commit(modelText(found, vehicle));
   const ImuBags& bags = asked.options.bags;
-  if (page) page->write(found, searching, whole, {fileNames(bags.paths), originOf(values, bags.allTopics())});
+  if (page)
+    page->write(found, searching, whole,
+                {fileNames(bags.paths), originOf(values, bags.allTopics()), dataJson(asked.options)});
 }
 
 }  // namespace

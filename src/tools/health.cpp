@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "checked_imus.h"
 #include "command.h"
 #include "csv_tables.h"
 #include "html_page.h"
@@ -201,7 +202,9 @@ void watchBags(const po::variables_map& values) {
   if (files.findings) files.findings->commit(whole.dump(2) + '\n');
   if (files.csv) files.csv->commit();
   if (files.page)
-    files.page->write(healthTemplate(), {{"struts", struts}, {"origin", originOf(values, options.bags.allTopics())}});
+    files.page->write(healthTemplate(), {{"struts", struts},
+                                         {"data", shortened(dataJson(options))},
+                                         {"origin", originOf(values, options.bags.allTopics())}});
   recorded.printInput();
   for (const std::size_t i : vehicle.asked) {
     std::printf("\n%s", vehicle.prefix(i, ", ").c_str());

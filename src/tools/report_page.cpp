@@ -114,6 +114,7 @@ json findingsOf(const ReportContent& content) {
                 {"forces", shortened(forcesJson(content))},
                 {"bags", content.source.drive_names},
                 {"model_file", toYaml(content.found.model())},
+                {"data", shortened(content.source.data)},
                 {"origin", content.source.origin}};
   findings["origin"]["from"] = toSeconds(content.found.from);
   findings["origin"]["to"] = toSeconds(content.found.to);
@@ -156,6 +157,7 @@ void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, cons
       {found, options.candidates, *options.sample_period, source, before, after && *after ? &*after : nullptr});
   const json& its = vehicle_.resultsOf(place, whole);
   findings["change"] = its.value("change", "");
+  findings["travel"] = shortened(its.at("travel"));
   findings["curves"] = shortened(curvesJson(its, found.model()));
   if (!vehicle_.isStrutAlone())
     findings["vehicle"] = {{"strut", vehicle_.names[place]},
@@ -179,6 +181,8 @@ void ReportPage::write(const VehicleDiagnosis& found, const DiagnoseOptions& opt
   }
   whole.update({{"source", sourceOf(source.drive_names, samples * period, period)},
                 {"places", places},
+                {"data", source.data},
+                {"effects", effectsJson(options.candidates)},
                 {"origin", source.origin}});
   page_->write(vehicleTemplate(), shortened(std::move(whole)));
 }

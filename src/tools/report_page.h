@@ -16,6 +16,7 @@ namespace suspension_health_monitor {
 struct PageSource {
   std::vector<std::string> drive_names;  ///< one per drive
   nlohmann::json origin;                 ///< as originOf()
+  nlohmann::json data;                   ///< as dataJson()
 };
 
 /// All that the page of a search is made of.

@@ -110,7 +110,7 @@ def test_every_candidate_has_its_row(report):
 
 def test_no_figure_is_empty(report):
     canvases = list(report.page.all("canvas"))
-    expected = {"friction": 2 + 3 + 2 + 1 + 2 + 2, "several": 2 + 3 + 2 + 2 + 2 + 2}.get(report.case, 2 + 3 + 1 + 2 + 2)
+    expected = 2 + 2 + {"friction": 3 + 2 + 1 + 2 + 2, "several": 3 + 2 + 2 + 2 + 2}.get(report.case, 3 + 1 + 2 + 2)
     assert len(canvases) == expected
     for canvas in canvases:
         assert canvas.attributes["aria-label"]

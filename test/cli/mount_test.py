@@ -1,6 +1,7 @@
 """IMUs that are turned against the strut, by the static transforms in the bag."""
 import json
 import math
+import re
 
 import genpy
 import pytest
@@ -69,6 +70,21 @@ def test_search_and_comparison_use_the_transforms_too(program, level_bag, tmp_pa
         program.succeed("compare", path, *settings, "--json", tmp_path / "compare.json")
         results.append(json.loads((tmp_path / "compare.json").read_text())["free_run"]["rmse"])
     assert results[1] == pytest.approx(results[0], rel=1e-6)
+
+
+def test_page_judges_the_data_in_the_axes_of_the_target(program, tmp_path):
+    program.succeed("simulate", "--scenario", "iso_road", "--rate", "100", "--duration", "30", "-o", tmp_path / "level.bag")
+    bag = write_turned(tmp_path / "level.bag", tmp_path / "turned.bag", 6.0 * PITCH, -6.0 * PITCH)
+    leans = []
+    for settings in (["--set", "target_frame=strut"], []):
+        program("health", bag, *settings, "--report", tmp_path / "page")
+        text = (tmp_path / "page" / "report.html").read_text()
+        findings = json.loads(re.search(r'id="findings">(.*?)</script>', text, re.DOTALL)[1])
+        leans.append([(each["verdict"].startswith("it leans by 30 degrees"), each["lean"])
+                      for each in findings["data"]["topics"]])
+    for (leans_on_strut, on_strut), (leans_alone, alone) in zip(*leans):
+        assert (leans_on_strut, leans_alone) == (False, True)
+        assert on_strut == pytest.approx(0.0, abs=0.02) and alone == pytest.approx(6.0 * PITCH, abs=0.02)
 
 
 def test_missing_transforms_are_named(program, level_bag, tmp_path):

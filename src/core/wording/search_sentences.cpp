@@ -11,6 +11,15 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr double kLeastShown = 0.001;  // what percent() shows, 0.1 %
+
+std::string describe(const char* number, const std::optional<RelativeChange>& change) {
+  if (!change) return std::string(number) + " wrong by an unknown share";
+  if (change->isKnown() && std::abs(change->value) >= kLeastShown)
+    return number + (" " + percent(std::abs(change->value))) + (change->value > 0.0 ? " high" : " low");
+  return number + (" wrong by less than " + percent(std::max(kLeastShown, change->most())));
+}
+
 const char* wordsFor(DriveKind kind) {
   switch (kind) {
     case DriveKind::kMoreTravel: return "a rougher road or more speed, with twice the travel";
@@ -66,6 +75,13 @@ std::string suggestForUnexplained(const SearchResult& result) {
 }
 
 }  // namespace
+
+std::string describe(const EffectCost& cost) {
+  const std::string name = cost.effect + (cost.size.empty() ? "" : " of " + cost.size);
+  if (!cost.fits_without) return "No strut fits without " + name + ".";
+  return "Leaving out " + name + " makes " + describe("b1 (damping)", cost.damping) + " and " +
+         describe("b0 (stiffness)", cost.stiffness) + (cost.isHarmless() ? "; nothing to do." : ".");
+}
 
 const char* nameOf(Verdict verdict) {
   switch (verdict) {

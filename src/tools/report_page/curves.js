@@ -39,8 +39,8 @@ function curveSection({curves: {damper, spring}}) {
   if (!shown.length) return null;
   return section(
       'curves', 'Damper and spring',
-      'The force as the drives show it, whatever the model says: compression to the right, rebound to the left. The ' +
-          'band holds nine tenths of the true law. A constant force cannot be told from an offset of a sensor, so ' +
+      'The force of shock absorber and spring as the drives show it, whatever the model says: compression to the ' +
+          'right, rebound to the left. The band holds nine tenths of the true law. A constant force cannot be told from an offset of a sensor, so ' +
           'that both curves go through 0.',
       legend(['good', 'as the drives show it', 'band'], ['after', 'by the model', 'dashed']),
       element('div', {class: 'pair'}, shown));

@@ -145,7 +145,8 @@ function courseFigures(findings) {
               legend(
                   ['after', 'estimate'], ['after', '95 % interval', 'band'], ['fine', 'healthy'],
                   ['open', 'warning', 'dashed'], ['found', 'error', 'dashed']),
-              figure('Damping / mass', hosts[1]), figure('Stiffness / mass', hosts[2])
+              figure('Damping / mass: shock absorber', hosts[1]),
+              figure('Stiffness / mass: spring', hosts[2])
             ] :
             [element('p', {}, 'No estimate was ever valid.')])
   ];

@@ -5,13 +5,12 @@ function buildHealthPage() {
   const {struts} = findings;
   const several = struts.length > 1;
   showPage(headlineOf(struts), [
-    several ? [overviewSection(struts), levelsSection(struts)] : [],
+    dataBox(findings), several ? [overviewSection(struts), levelsSection(struts)] : [],
     struts.map(
         strut =>
             [healthVerdictSection(strut, several), courseSection(strut, several), eventsSection(strut, several),
              estimatesSection(strut, several)]),
-    originSection(
-        findings, 'Judged through the code of the live monitor. Everything on this page is in this one file.')
+    originSection(findings, 'Judged through the code of the live monitor. Everything on this page is in this one file.')
   ]);
 }
 

@@ -1,15 +1,21 @@
 // Error step by step, as bars: the model as it is, with each effect, and what noise alone leaves.
 
-function ladderSteps({base, extended, ranking, selected, noise_floor: floor}) {
-  const steps =
-      [{label: 'model as it is', note: 'before anything is added', rmse: base.held_out_rmse, tone: 'before'}];
+function ladderSteps({search: {base, extended, ranking, selected, noise_floor: floor}, effects}) {
+  const finding = names => names.map(name => whatAndWhere(effects[name].finding)[0]).join('; ');
+  const steps = [{label: 'model as it is', note: 'before anything is added', rmse: base.held_out_rmse, tone: 'before'}];
   const alone = ranking.find(({effects}) => effects[effects.length - 1] === selected[0]);
   if (extended && selected.length > 1 && alone)
-    steps.push({label: `with ${spoken(selected[0])}`, rmse: alone.held_out_rmse, tone: 'after'});
+    steps.push({
+      label: `with ${spoken(selected[0])}`,
+      note: finding(selected.slice(0, 1)),
+      rmse: alone.held_out_rmse,
+      tone: 'after'
+    });
   if (extended) {
     const last = selected.length > 1 ? selected.slice(1) : selected;
     steps.push({
       label: `with ${joined(last.map(spoken))}${selected.length > 1 ? ' as well' : ''}`,
+      note: finding(last),
       rmse: extended.held_out_rmse,
       tone: 'after'
     });
@@ -27,13 +33,13 @@ function bar(share, floorShare, tone) {
 
 function ladderSection(findings) {
   const {noise_floor: floor} = findings.search;
-  const steps = ladderSteps(findings.search);
+  const steps = ladderSteps(findings);
   const longest = Math.max(...steps.map(step => step.rmse));
   const scale = scaleFor(longest, 'm/s^2');
   return section(
       'ladder', findings.after ? 'How much error goes away' : 'How large the error is',
       'Root mean square error of the predicted body acceleration on parts of the drive that no fit has seen. Shorter ' +
-      'is better; the dashed line is about what sensor noise alone would leave.',
+          'is better; the dashed line is about what sensor noise alone would leave.',
       element(
           'dl', {class: 'ladder'},
           steps.map(

@@ -64,7 +64,7 @@ function rankingSection(findings) {
 
 /** Symbol and name of one of the model's numbers. */
 function parameterName({name, effect, symbol}) {
-  if (!effect) return {b1: ['b₁', 'damping / mass'], b0: ['b₀', 'stiffness / mass']}[symbol];
+  if (!effect) return {b1: ['b₁', 'damping / mass: shock absorber'], b0: ['b₀', 'stiffness / mass: spring']}[symbol];
   return [symbol, `of ${spoken(name === `${effect}/${symbol}` ? effect : name)}`];
 }
 

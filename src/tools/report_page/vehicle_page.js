@@ -8,7 +8,8 @@ const strutsOf = ({places, struts}) => places.map(place => ({verdict: 'cannot_te
 function buildVehiclePage() {
   const all = readFindings(), findings = {...all, struts: strutsOf(all)};
   showPage(spoken(findings.summary), [
-    vehicleVerdictSection(findings), couplingSection(findings), forcesSection(findings), strutsSection(findings),
+    dataBox(findings), vehicleVerdictSection(findings), couplingSection(findings), forcesSection(findings),
+    strutsSection(findings),
     originSection(
         findings,
         'Forces are per unit of the mass that a strut has of the body. This page needs no other file; those of the ' +

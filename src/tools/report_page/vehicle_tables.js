@@ -16,7 +16,7 @@ function strutsSection({struts}) {
   const scale = scaleFor(Math.max(0, ...struts.map(({base}) => (base ? base.held_out_rmse : 0))), 'm/s^2');
   return section(
       'struts', 'The struts by numbers',
-      'Damping b₁ and stiffness b₀ over the mass that each has of the body, free of what the others do; error: of the ' +
+      'Damping b₁ (shock absorber) and stiffness b₀ (spring) over the mass that each has of the body, free of what the others do; error: of the ' +
           'predicted acceleration on parts of the drive that no fit has seen, of the model as it is.',
       wideTable(
           [
@@ -47,7 +47,8 @@ function couplingSection({struts, coupling, coupling_stddevs: stddevs, model_err
           'The ratios belong to the body and to where the struts stand, not to wear; positive: both are pushed the ' +
           'same way.' +
           (isNumber(modelError) ?
-               ` A rigid body on linear struts leaves ${rounded(100 * modelError, 2)} % of it unexplained.` : ''),
+               ` A rigid body on linear struts leaves ${rounded(100 * modelError, 2)} % of it unexplained.` :
+               ''),
       wideTable(
           [head('moved by'), struts.map(({name}) => head(spoken(name), 'number'))],
           struts.map(

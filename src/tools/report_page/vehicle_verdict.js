@@ -12,13 +12,15 @@ function strutName({name, reason}) {
   return reason ? spoken(name) : element('a', {href: `${name}/report.html`}, spoken(name));
 }
 
-function strutItem(strut) {
+function strutItem(strut, effects) {
   const {name, verdict, selected, change} = strut;
+  const findings = selected.filter(each => effects[each]).map(each => effects[each].finding);
   const found = foundIn(strut);
   return element(
       'li', {'data-strut': name, 'data-verdict': verdict}, element('b', {}, strutName(strut)), ' ',
       element('span', {class: 'word'}, verdictWord(verdict, selected.length)),
-      found ? element('small', {}, capitalised(found)) : null,
+      found ? element('small', {}, capitalised(found), findings.length ? ` (${findings.join('; ')})` : '') : null,
+      costLines(strut).map(line => element('small', {}, line.textContent)),
       change ? element('small', {class: 'change'}, capitalised(change)) : null);
 }
 
@@ -36,7 +38,9 @@ function vehicleVerdictSection(findings) {
   return element(
       'section', {id: 'verdict', 'data-verdict': verdict}, element('p', {class: 'source'}, source),
       element('h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, named)), element('br'), spoken(summary)),
-      element('div', {class: 'from-above'}, vehicleDrawing(findings), element('ul', {}, struts.map(strutItem))),
+      element(
+          'div', {class: 'from-above'}, vehicleDrawing(findings),
+          element('ul', {}, struts.map(strut => strutItem(strut, findings.effects)))),
       bars.map(barSentence),
       element(
           'p', {class: 'lede'},

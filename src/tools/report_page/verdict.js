@@ -8,6 +8,12 @@ function whatAndWhere(finding) {
   return colon < 0 ? [finding, ''] : [finding.slice(0, colon), finding.slice(colon + 2)];
 }
 
+/** The same in a sentence: "dry friction (seal, bent rod, top mount)". */
+function foundWith(finding) {
+  const [what, where] = whatAndWhere(finding);
+  return where ? `${what} (${where})` : what;
+}
+
 /** The effects that the drive cannot tell from the one named, itself first. */
 function rivalsOf(findings, name) {
   const group = findings.search.indistinguishable.find(each => each.includes(name)) || [];
@@ -39,13 +45,13 @@ function headline(findings) {
 /** One sentence per effect: its name, where to look, its size. */
 function effectSentence(findings, name) {
   const {law, finding, advice} = kindOf(findings, name);
+  const isHarmless = (findings.search.costs || []).some(({effect, harmless}) => effect === name && harmless);
   const sizes = numbersOf(findings, name, findings.search.extended, findings.search.extended.stddevs);
-  const [what, where] = whatAndWhere(finding);
   return element(
       'p', {class: 'answer'}, element('b', {'data-effect': name}, capitalised(spoken(name))), ', ',
       element('code', {}, law), ` with ${joined(sizes)}. `,
-      `What a workshop would find: ${what}${where ? ` (${where})` : ''}. `,
-      advice ? element('span', {class: 'advice'}, advice) : null);
+      `What a workshop would find: ${foundWith(finding)}. `,
+      advice && !isHarmless ? element('span', {class: 'advice'}, advice) : null);
 }
 
 /** @param share  of the error that a free-form force of travel and travel rate could explain. */
@@ -128,7 +134,7 @@ function verdictSection(findings) {
       element(
           'h1', {}, element('span', {class: 'pill'}, verdictWord(verdict, selected.length)), element('br'),
           headline(findings)),
-      ofVehicle(findings), findings.change ? element('p', {class: 'change'}, `${capitalised(findings.change)}.`) : null,
-      selected.map(name => effectSentence(findings, name)), nextSteps(findings),
-      keyFigures(findings));
+      costLines(findings.search), ofVehicle(findings),
+      findings.change ? element('p', {class: 'change'}, `${capitalised(findings.change)}.`) : null,
+      selected.map(name => effectSentence(findings, name)), nextSteps(findings), keyFigures(findings));
 }

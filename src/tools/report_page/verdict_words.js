@@ -8,3 +8,7 @@ const verdictWord = (verdict, count = 1) => ({
   unexplained: 'Unexplained',
   cannot_tell: 'Cannot tell'
 }[verdict]);
+
+/** What the effects found do to b1 and b0, in the words of the terminal. */
+const costLines = ({costs = []}) =>
+    costs.map(({effect, sentence}) => element('p', {class: 'cost', 'data-cost': effect}, spoken(sentence)));

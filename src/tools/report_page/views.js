@@ -116,7 +116,7 @@ function forceSection(findings) {
   if (!selected.length) return null;
   const panels = findings.forces.map(
       force =>
-          [element('h3', {}, capitalised(spoken(force.effect))),
+          [element('h3', {}, `${capitalised(spoken(force.effect))}: ${foundWith(kindOf(findings, force.effect).finding)}`),
            force.branches ?
                forceCurves(force) :
                mapPair(

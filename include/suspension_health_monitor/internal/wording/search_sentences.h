@@ -5,6 +5,7 @@
 
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/search/effect_cost.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 
 namespace suspension_health_monitor {
@@ -14,6 +15,9 @@ const char* nameOf(Verdict verdict);
 
 /// The verdict in a sentence for people.
 std::string summaryOf(const SearchResult& result);
+
+/// What an effect does to b1 and b0 in a sentence; of a harmless fault of a sensor also that there is nothing to do.
+std::string describe(const EffectCost& cost);
 
 /// What a suspect leaves, in a sentence; empty with any other verdict.
 std::string remainderOf(const SearchResult& result);

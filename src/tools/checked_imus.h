@@ -1,0 +1,41 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bag_options.h"
+#include "checked_files.h"
+#include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
+
+namespace suspension_health_monitor {
+
+/// The IMUs of bags: what each of them is like, what points up, and which is which.
+struct CheckedImus {
+  /// @param asked  topics of IMUs; none: all of a bag are meant.
+  /// @param target_frame  whose axes count instead of the IMUs' own; empty: none. The bags have the transforms.
+  /// @throws InputError  as readTopics(), or without any IMU.
+  CheckedImus(const ImuBags& bags, const std::vector<BagTopic>& asked, const std::string& target_frame = "");
+
+  /// @return what is the matter with an IMU and what to do, in a sentence; empty: nothing is.
+  std::string faultOf(std::size_t imu) const;
+  std::string sentenceOf(const BodyOverWheel& pair) const;
+  nlohmann::json toJson() const;
+
+  std::vector<CheckedImu> imus;
+  TopicGaps gaps{ShellOptions().input_timeout};
+  std::vector<BodyOverWheel> pairs;
+
+ private:
+  std::size_t placeOf(const std::string& topic);
+  void orient();
+  double moved(std::size_t imu, const double (&band)[2]) const;
+
+  std::optional<ImuSpectra> spectra;
+};
+
+/// What `check` says of the IMUs that a command has read, as its JSON has it: for the first box of every page.
+nlohmann::json dataJson(const BagOptions& options);
+
+}  // namespace suspension_health_monitor
