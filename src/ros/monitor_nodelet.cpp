@@ -1,5 +1,6 @@
 #include "monitor_nodelet.h"
 
+#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
@@ -17,6 +18,7 @@ MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
   reconfigure_.reset();
   diagnose_.reset();
+  curves_.reset();
   tick_.stop();
   body_.stop();
   topics_.reset();
@@ -59,7 +61,9 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   if (!isAlone())
     diagnostics_.emplace(node, private_node, getName(), options_, *placement_,
                          [this](Status& status) { describeInput(status); });
-  for (const auto& strut : struts_) strut->start(node, private_node);
+  std::vector<ros::NodeHandle> own;
+  for (const auto& strut : struts_) own.push_back(strut->start(node, private_node));
+  curves_.emplace(own, thread(), [this](Stamp last) { return curveTask(last); });
   topics_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
@@ -186,6 +190,27 @@ SearchTask MonitorNodelet::samplesFor(double window) {
   const StrutEstimate& estimate = monitor.modelEstimate();
   if (!model.effects().empty() && estimate.valid())
     task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor.effects(), {}};
+  return task;
+}
+
+std::optional<CurveTask> MonitorNodelet::curveTask(Stamp last) {
+  if (!pipeline_ || pipeline_->monitor() == nullptr) return std::nullopt;
+  CurveTask task;
+  Stamp newest{};
+  for (std::size_t i = 0; i < struts_.size(); ++i) {
+    const SuspensionMonitor& strut = *pipeline_->strut(i);
+    const StrutEstimate& estimate = strut.modelEstimate();
+    newest = std::max(newest, strut.report().stamp);
+    task.models.emplace_back();
+    if (estimate.valid())
+      task.models.back() = {estimate.damping_to_mass, estimate.stiffness_to_mass, strut.effects(), {}};
+    task.frames.push_back(frameOf(i));
+  }
+  const bool is_due = newest < last || newest - last >= LiveCurves::kEvery;
+  if (!is_due || std::none_of(task.models.begin(), task.models.end(), [](const auto& known) { return known; }))
+    return std::nullopt;
+  task.search =
+      samplesFor(std::min(options_.common.shell.diagnose_window, LiveCurves::kMostSamples * *pipeline_->period()));
   return task;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "html_page.h"
 #include "recorded_drives.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
@@ -14,7 +15,6 @@ using nlohmann::json;
 
 constexpr double kRows = 6.0;  // of a table, or up to twice as many
 constexpr int kTitleWidth = 15;
-constexpr double kNinetyPercent = 1.645;  // standard deviations
 
 /// @return 1, 2 or 5 times a power of ten, not above x > 0.
 double roundedDown(double x) {
@@ -65,6 +65,16 @@ void printCurves(const StrutCurves& curves, const std::optional<double>& mass) {
 void addCurves(const StrutCurves& curves, json& into) {
   into["damper_curve"] = toJson("velocity", curves.damper);
   into["spring_curve"] = toJson("travel", curves.spring);
+}
+
+json curveFindings(const AskedVehicle& vehicle, json whole, const std::string& source, const json& origin) {
+  json struts = json::array();
+  for (const std::size_t i : vehicle.asked) {
+    const json& its = vehicle.resultsOf(i, whole);
+    struts.push_back({{"strut", vehicle.names[i]}, {"against", its.value("against", json())}});
+    for (const char* curve : {"damper_curve", "spring_curve"}) struts.back()[curve] = its[curve];
+  }
+  return {{"struts", shortened(struts)}, {"source", source}, {"origin", origin}};
 }
 
 }  // namespace suspension_health_monitor
