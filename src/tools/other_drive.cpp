@@ -5,6 +5,7 @@
 #include "command.h"
 #include "curve_output.h"
 #include "recorded_monitor.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/drive_sentences.h"
 
 namespace suspension_health_monitor {

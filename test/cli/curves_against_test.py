@@ -52,7 +52,7 @@ def test_a_damper_worn_in_rebound_is_said_in_rebound_alone(program, tmp_path, ma
 @pytest.mark.parametrize("seed", [3, 4])
 def test_the_same_strut_on_another_drive_has_not_changed(program, tmp_path, march, seed):
     found = against(program, simulate(program, tmp_path, "today", "--seed", seed), march, tmp_path)
-    assert re.fullmatch(r"no certain change against march.bag: damping within [+-]\d+ to [+-]\d+ %, "
+    assert re.fullmatch(r"no certain change against march.bag: damping within [+-]\d+ to [+-]\d+ %; "
                         r"stiffness within [+-]\d+ to [+-]\d+ %", found["change"])
     assert found["damper_differences"] == found["spring_differences"] == []
 

@@ -115,7 +115,7 @@ TEST(DriveChange, IsNoneWhereNothingIsCertain) {
   const StrutCurves curves{curveOf(linear), curveOf(linear)};
   EXPECT_EQ(
       describe(changeOf(estimateOf(kSlope, 40.0, 0.01), curves, estimateOf(kSlope, 40.0, 0.01), curves, 0.3), "a"),
-      "no certain change against a: damping within -2 to +2 %, stiffness within -2 to +2 %");
+      "no certain change against a: damping within -2 to +2 %; stiffness within -2 to +2 %");
 }
 
 TEST(DriveChange, OfANumberThatTheCurveDoesNotShowIsDoubted) {

@@ -24,7 +24,7 @@ std::vector<double> nodesOf(const ForceCurve& now, const ForceCurve& other, doub
 CurveChange changeOf(const ForceCurve& now, const ForceCurve& other, const MassRatio& mass) {
   CurveChange change;
   const std::vector<double> sides[] = {nodesOf(now, other, 1.0), nodesOf(now, other, -1.0)};
-  const double limit = limitFor(static_cast<double>(sides[0].size() + sides[1].size()));
+  const double limit = limitFor(std::fmax(1.0, static_cast<double>(sides[0].size() + sides[1].size())));
   for (const std::vector<double>& nodes : sides) {
     std::optional<CurveChange::Range> open;
     const auto close = [&] {
