@@ -106,9 +106,10 @@ TEST(DriveChange, IsSaidWithItsPlace) {
   const DriveChange change =
       changeOf(estimateOf(0.8 * kSlope, 40.0, 0.01), now, estimateOf(kSlope, 40.0, 0.01), before, 0.3);
   // 1.645 sqrt(2) 0.01 of ln: 0.8 exp(-+0.0233) = 0.782, 0.819
-  EXPECT_EQ(describe(change, "march.bag"),
-            "damping 20 % below march.bag (90 %: 18 to 22 %), softer in rebound above 0.1 m/s; stiffness within -2 to "
-            "+2 %");
+  EXPECT_EQ(
+      describe(change, "march.bag"),
+      "damping 20.0 % below march.bag (90 %: 18.1 to 21.8 %), softer in rebound above 0.1 m/s; stiffness within -2 "
+      "to +2 %");
 }
 
 TEST(DriveChange, IsNoneWhereNothingIsCertain) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/base/text.h"
@@ -12,6 +12,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kBeyond = 0.05;  // on either side: intervals of 90 %, as the curves' bands
+constexpr double kCoarse = 4.0;   // [%]: of a narrower interval whole percents say too little
 
 /// Damping with the damper's curve, or stiffness with the spring's.
 struct Part {
@@ -39,26 +40,20 @@ std::string describeCurve(const Part& part) {
   for (const CurveChange::Range& range : part.curve.ranges) ranges.push_back(describe(range, part));
   if (!ranges.empty()) return join(ranges, " and ");
   if (!part.isProven() || std::abs(*part.change) < kClearlyMore * part.curve.least) return {};
-  return std::string("though the ") + part.element + "'s curve shows no change: perhaps the road";
-}
-
-std::pair<long, long> percentInterval(double change, double stddev, double beyond) {
-  const double half = normalQuantile(beyond) * stddev;
-  const auto percent = [&](double shift) { return std::lround(100.0 * std::expm1(std::log1p(change) + shift)); };
-  return {percent(-half), percent(half)};
+  return std::string("though the ") + part.element + "'s curve shows no change: perhaps only the road differs";
 }
 
 std::string describe(const Part& part, const std::string& other) {
   if (!part.change || !std::isfinite(part.stddev)) return {};
-  std::string size;
-  if (part.isProven()) {
-    const std::string interval = intervalOf(*part.change, part.stddev, kBeyond);
-    size = std::string(part.name) + ' ' + sizeInPercent(*part.change) + (*part.change < 0.0 ? " below " : " above ") +
-           other + (interval.empty() ? "" : " (90 %: " + interval + ")");
-  } else {
-    const auto [low, high] = percentInterval(*part.change, part.stddev, kBeyond);
-    size = formatted("%s within %+ld to %+ld %%", part.name, low, high);
-  }
+  const double half = normalQuantile(kBeyond) * part.stddev, log = std::log1p(*part.change);
+  const double low = 100.0 * std::expm1(log - half), high = 100.0 * std::expm1(log + half);
+  const int digits = high - low < kCoarse ? 1 : 0;
+  const auto [least, most] = std::minmax({std::abs(low), std::abs(high)});
+  const std::string size = part.isProven()
+                               ? formatted("%s %.*f %% %s ", part.name, digits, 100.0 * std::abs(*part.change),
+                                           *part.change < 0.0 ? "below" : "above") +
+                                     other + formatted(" (90 %%: %.*f to %.*f %%)", digits, least, digits, most)
+                               : formatted("%s within %+.*f to %+.*f %%", part.name, digits, low, digits, high);
   return join({size, describeCurve(part)});
 }
 
@@ -78,17 +73,6 @@ std::string describe(const DriveChange& change, const std::string& other) {
   const std::string mass =
       is_loaded ? "body mass " + sizeInPercent(payload) + (payload < 0.0 ? " below" : " above") : "";
   return against + join({sizes, mass}, "; ");
-}
-
-std::string intervalOf(double change, double stddev, double beyond) {
-  if (!std::isfinite(stddev)) return {};
-  const auto ends = percentInterval(change, stddev, beyond);
-  const long sign = change < 0.0 ? -1 : 1;
-  const auto [low, high] = std::minmax({sign * ends.first, sign * ends.second});
-  if (low == high) return {};
-  if (low >= 0) return formatted("%ld to %ld %%", low, high);
-  const bool is_below = change < 0.0;
-  return formatted("%ld %% %s to %ld %% %s", -low, is_below ? "above" : "below", high, is_below ? "below" : "above");
 }
 
 }  // namespace suspension_health_monitor

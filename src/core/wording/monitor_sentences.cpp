@@ -5,7 +5,6 @@
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/wording/drive_sentences.h"
 
 namespace suspension_health_monitor {
 
@@ -114,6 +113,22 @@ std::string describeDoubt(EstimateDoubt doubt, const std::string& known) {
   const bool is_excitation = doubt == EstimateDoubt::kNotExcited || doubt == EstimateDoubt::kDampingNotExcited ||
                              doubt == EstimateDoubt::kStiffnessNotExcited;
   return describe(doubt) + (is_excitation ? known : "");
+}
+
+// @param stddev  of ln(1 + change).
+// @return what holds its size 95 times of 100: "28 to 34 %", "2 % below to 4 % above"; empty: not known, or no wider
+// than the last digit.
+std::string intervalOf(double change, double stddev) {
+  const double half = normalQuantile(0.025) * stddev;
+  if (!std::isfinite(half)) return {};
+  const auto percent = [&](double log_change) {
+    return std::lround(std::copysign(100.0, change) * std::expm1(log_change));
+  };
+  const auto [low, high] = std::minmax({percent(std::log1p(change) - half), percent(std::log1p(change) + half)});
+  if (low == high) return {};
+  if (low >= 0) return formatted("%ld to %ld %%", low, high);
+  const bool is_below = change < 0.0;
+  return formatted("%ld %% %s to %ld %% %s", -low, is_below ? "above" : "below", high, is_below ? "below" : "above");
 }
 
 std::string describeChange(const std::string& parameter, const std::optional<double>& change, double stddev,
