@@ -25,20 +25,23 @@ struct Part {
   bool isProven() const { return change && DriveChange::isProven(*change, stddev); }
 };
 
-std::string describe(const CurveChange::Range& range, const Part& part) {
+/// @return e.g. "in rebound above 0.3 m/s".
+std::string placeOf(const CurveChange::Range& range, const Part& part) {
   const double from = std::abs(range.from) / part.scale, to = std::abs(range.to) / part.scale;
-  const std::string where = range.to_end ? formatted("above %.2g", from)
-                            : from == to ? formatted("at %.2g", from)
-                                         : formatted("from %.2g to %.2g", from, to);
-  return std::string(range.softer ? "softer" : "stiffer") + (range.from > 0.0 ? " in compression " : " in rebound ") +
-         where + ' ' + part.unit;
+  const std::string where = range.to_end ? formatted("above %.2g ", from)
+                            : from == to ? formatted("at %.2g ", from)
+                                         : formatted("from %.2g to %.2g ", from, to);
+  return (range.from > 0.0 ? "in compression " : "in rebound ") + where + part.unit;
 }
 
 /// @return where a curve has changed; of one that has not, although the number has, that.
 std::string describeCurve(const Part& part) {
-  std::vector<std::string> ranges;
-  for (const CurveChange::Range& range : part.curve.ranges) ranges.push_back(describe(range, part));
-  if (!ranges.empty()) return join(ranges, " and ");
+  std::vector<std::string> softer, stiffer;
+  for (const CurveChange::Range& range : part.curve.ranges)
+    (range.softer ? softer : stiffer).push_back(placeOf(range, part));
+  if (!softer.empty()) softer.front() = "softer " + softer.front();
+  if (!stiffer.empty()) stiffer.front() = "stiffer " + stiffer.front();
+  if (!part.curve.ranges.empty()) return join({join(softer, " and "), join(stiffer, " and ")});
   if (!part.isProven() || std::abs(*part.change) < kClearlyMore * part.curve.least) return {};
   return std::string("though the ") + part.element + "'s curve shows no change: perhaps only the road differs";
 }
