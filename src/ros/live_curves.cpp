@@ -11,11 +11,13 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr double kLook = 1.0;  // [s] between two looks whether a fit is due
+constexpr double kLook = 1.0;                       // [s] between two looks whether a fit is due
+constexpr Stamp kAgain = std::chrono::seconds(10);  // of drive, after a fit that has told nothing
 
 /// @param header  with the stamp of the newest sample.
-void publish(ros::Publisher& publisher, const char* variable, const ForceCurve& curve, const std_msgs::Header& header) {
-  if (curve.at.empty()) return;
+/// @return whether there is something to tell.
+bool publish(ros::Publisher& publisher, const char* variable, const ForceCurve& curve, const std_msgs::Header& header) {
+  if (curve.at.empty()) return false;
   const auto message = boost::make_shared<StrutCurve>();
   message->header = header;
   message->variable = variable;
@@ -23,6 +25,7 @@ void publish(ros::Publisher& publisher, const char* variable, const ForceCurve& 
   message->force = curve.force;
   message->stddev = curve.stddev;
   publisher.publish(message);
+  return true;
 }
 
 }  // namespace
@@ -57,16 +60,18 @@ void LiveCurves::updateIfDue() {
 
 void LiveCurves::update(const CurveTask& task) {
   const auto& [drive, names, options] = task.search;
-  last_ = drive.struts.front().samples.back().stamp;
+  const Stamp newest = drive.struts.front().samples.back().stamp;
+  last_ = newest - kEvery + kAgain;
   const SeparatedVehicle own = separateVehicle({drive}, names, options.sample_period, task.models);
   std_msgs::Header header;
-  header.stamp = toRosTime(last_);
+  header.stamp = toRosTime(newest);
   for (std::size_t i = 0; i < own.struts.size() && !stopping_; ++i) {
     if (!topics_[i].isHeard() || !task.models[i]) continue;
     const StrutCurves curves = strutCurves(own.struts[i], *task.models[i], options.sample_period);
     header.frame_id = task.frames[i];
-    publish(topics_[i].damper, "velocity", curves.damper, header);
-    publish(topics_[i].spring, "travel", curves.spring, header);
+    const bool has_damper = publish(topics_[i].damper, "velocity", curves.damper, header);
+    const bool has_spring = publish(topics_[i].spring, "travel", curves.spring, header);
+    if (has_damper || has_spring) last_ = newest;
   }
 }
 
