@@ -42,8 +42,7 @@ LiveCurves::LiveCurves(const std::vector<ros::NodeHandle>& struts, MonitorThread
 }
 
 LiveCurves::~LiveCurves() {
-  stopping_ = true;
-  timer_.stop();  // waits for a fit that runs, and it sees stopping_
+  timer_.stop();  // waits for a fit that runs
   spinner_.stop();
 }
 
@@ -65,7 +64,7 @@ void LiveCurves::update(const CurveTask& task) {
   const SeparatedVehicle own = separateVehicle({drive}, names, options.sample_period, task.models);
   std_msgs::Header header;
   header.stamp = toRosTime(newest);
-  for (std::size_t i = 0; i < own.struts.size() && !stopping_; ++i) {
+  for (std::size_t i = 0; i < own.struts.size(); ++i) {
     if (!topics_[i].isHeard() || !task.models[i]) continue;
     const StrutCurves curves = strutCurves(own.struts[i], *task.models[i], options.sample_period);
     header.frame_id = task.frames[i];

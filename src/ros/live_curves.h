@@ -3,7 +3,6 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -42,7 +41,7 @@ class LiveCurves {
   /// object.
   LiveCurves(const std::vector<ros::NodeHandle>& struts, MonitorThread& nodelet_thread, Prepare prepare);
 
-  /// Waits for a fit that runs, of one strut at most.
+  /// Waits for a fit that runs.
   ~LiveCurves();
   LiveCurves(const LiveCurves&) = delete;
   LiveCurves& operator=(const LiveCurves&) = delete;
@@ -60,7 +59,6 @@ class LiveCurves {
   Prepare prepare_;
   std::vector<Topics> topics_;  // by strut
   Stamp last_{};
-  std::atomic<bool> stopping_{false};
   ros::CallbackQueue queue_;
   ros::WallTimer timer_;
   ros::AsyncSpinner spinner_;

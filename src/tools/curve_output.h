@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -11,7 +12,7 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr double kNinetyPercent = 1.645;  ///< standard deviations
+inline constexpr const char* kAgainst = "against";  ///< name of an option
 
 /// Reads bags as drives and fits curves, from the linear struts that identify found.
 /// @param found  by strut.  @return likewise; empty curves where nothing was found, or is not asked for.
@@ -23,6 +24,15 @@ void printCurves(const StrutCurves& curves, const std::optional<double>& mass);
 
 /// Adds "damper_curve" and "spring_curve", over the body's mass.
 void addCurves(const StrutCurves& curves, nlohmann::json& into);
+
+/// Identifies the bag of --against with all other options as they are, and compares every strut with itself there.
+/// @param now, curves  by strut, of the drives that it is compared with.
+/// @return by strut `bag`, its curves there, `change` in a sentence and, with valid estimates of both, the numbers of
+/// it; empty if --against is not given.
+/// @throws std::invalid_argument, InputError, TooLittleError  as identify, with the bag's name before.
+std::vector<nlohmann::json> againstOther(boost::program_options::variables_map values,
+                                         const std::vector<IdentifyResult>& now,
+                                         const std::vector<StrutCurves>& curves);
 
 /// What the page of curves is made of.
 /// @param whole  what was found, as --json has it.

@@ -6,7 +6,6 @@
 #include "curve_output.h"
 #include "html_page.h"
 #include "long_work.h"
-#include "other_drive.h"
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"

@@ -22,7 +22,9 @@ struct Part {
   double stddev;  // of ln(1 + change)
   const CurveChange& curve;
 
-  bool isProven() const { return change && DriveChange::isProven(*change, stddev); }
+  bool isProven() const {
+    return change && std::abs(*change) > kLeastChange && std::abs(std::log1p(*change)) > kProven * stddev;
+  }
 };
 
 /// @return e.g. "in rebound above 0.3 m/s".
