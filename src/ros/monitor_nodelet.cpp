@@ -194,21 +194,20 @@ SearchTask MonitorNodelet::samplesFor(double window) {
 }
 
 std::optional<CurveTask> MonitorNodelet::curveTask(Stamp last) {
-  if (!pipeline_ || pipeline_->monitor() == nullptr) return std::nullopt;
+  if (!pipeline_ || pipeline_->strut() == nullptr) return std::nullopt;
   CurveTask task;
-  Stamp newest{};
+  bool is_known = false;
   for (std::size_t i = 0; i < struts_.size(); ++i) {
     const SuspensionMonitor& strut = *pipeline_->strut(i);
     const StrutEstimate& estimate = strut.modelEstimate();
-    newest = std::max(newest, strut.report().stamp);
     task.models.emplace_back();
     if (estimate.valid())
       task.models.back() = {estimate.damping_to_mass, estimate.stiffness_to_mass, strut.effects(), {}};
+    is_known = is_known || estimate.valid();
     task.frames.push_back(frameOf(i));
   }
-  const bool is_due = newest < last || newest - last >= LiveCurves::kEvery;
-  if (!is_due || std::none_of(task.models.begin(), task.models.end(), [](const auto& known) { return known; }))
-    return std::nullopt;
+  const Stamp newest = pipeline_->strut()->report().stamp;
+  if (!is_known || (newest >= last && newest - last < LiveCurves::kEvery)) return std::nullopt;
   task.search =
       samplesFor(std::min(options_.common.shell.diagnose_window, LiveCurves::kMostSamples * *pipeline_->period()));
   return task;
