@@ -2,10 +2,13 @@
 
 const NINETY_PERCENT = 1.645;  // standard deviations
 
-const CURVES_LEDE = 'Compression to the right, rebound to the left. A band holds nine tenths of the true law. A constant ' +
+const CURVES_LEDE =
+    'Compression to the right, rebound to the left. A band holds nine tenths of the true law. A constant ' +
     'force cannot be told from an offset of a sensor, so that curves go through 0.';
 
-/** @param lines  [{label, colour, xs, force, stddev}], the first to be read off; without stddev dashed, without a band. */
+/**
+ * @param lines  [{label, colour, xs, force, stddev}], the first to be read off; without stddev dashed, without a band.
+ */
 function curveFigure(title, axis, lines) {
   const shown = lines.filter(({force}) => force.length);
   if (!shown.length) return null;
@@ -26,8 +29,8 @@ function curveFigure(title, axis, lines) {
                        bands.filter(({stddev}) => stddev)
                            .map(({xs, low, high, colour}) => bandLayer(xs, low, high, colour, 0.35)),
                        bands.map(
-                           ({xs, force, stddev, colour, label}) => lineLayer(
-                               xs, force, colour, stddev ? {label} : {label, width: 1.4, dash: [5, 4]}))
+                           ({xs, force, stddev, colour, label}) =>
+                               lineLayer(xs, force, colour, stddev ? {label} : {label, width: 1.4, dash: [5, 4]}))
                      ].flat(),
                      hover(x) {
                        const at = bands[0].xs[nearestIndex(bands[0].xs, x)];
@@ -55,8 +58,9 @@ function curveFigures(damper, spring) {
 }
 
 function curveSection({curves: {damper, spring}}) {
-  const linesOf = curve => [{...curve, label: 'as the drives show it', colour: 'good'},
-                            {...curve, label: 'by the model', colour: 'after', force: curve.law, stddev: null}];
+  const linesOf = curve =>
+      [{...curve, label: 'as the drives show it', colour: 'good'},
+       {...curve, label: 'by the model', colour: 'after', force: curve.law, stddev: null}];
   const figures = curveFigures(linesOf(damper), linesOf(spring));
   return figures &&
       section(

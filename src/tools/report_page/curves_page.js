@@ -3,10 +3,9 @@
 const NO_CURVES = 'The drives do not tell the curves.';
 
 function strutCurvesSection({strut, damper_curve: damper, spring_curve: spring, against}) {
-  const linesOf = (now, name) => [
-    ...(against ? [{...against[name], label: against.bag, colour: 'before'}] : []),
-    {...now, label: 'this drive', colour: 'after'}
-  ].reverse();
+  const linesOf = (now, name) =>
+      [{...now, label: 'this drive', colour: 'after'},
+       ...(against ? [{...against[name], label: against.bag, colour: 'before'}] : [])];
   return section(
       strut ? `curves-${strut}` : 'curves', capitalised(spoken(strut)) || 'Damper and spring', null,
       against && against.change ? element('p', {class: 'answer'}, `${capitalised(typeset(against.change))}.`) : null,
