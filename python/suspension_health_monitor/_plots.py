@@ -109,6 +109,21 @@ def _plot_diagnosis(self, axes=None):
     return figure
 
 
+def _plot_curves(self, axes=None):
+    """Forces of damper and spring, rebound to the left, with their 90 % bands; returns the figure.
+
+    axes: two, to draw into.
+    """
+    figure, axes = _axes(axes, 2)
+    for axis, curve, variable, label in ((axes[0], self.damper_curve, "velocity", "travel rate [m/s]"),
+                                         (axes[1], self.spring_curve, "travel", "travel [m]")):
+        middle, spread = curve["force"], 1.645 * curve["stddev"]
+        axis.fill_between(curve[variable], middle - spread, middle + spread, alpha=0.25, linewidth=0)
+        axis.plot(curve[variable], middle)
+        axis.set(xlabel=label, ylabel="force/mass [m/s²]")
+    return figure
+
+
 def _plot_simulation(self, axes=None):
     """Readings and travel over time; returns the figure. axes: two, to draw into."""
     figure, axes = _axes(axes, 2, sharex=True)
@@ -127,3 +142,4 @@ def install():
                       (_core.Comparison, _plot_comparison), (_core.Diagnosis, _plot_diagnosis),
                       (_core.Simulation, _plot_simulation)):
         cls.plot = plot
+    _core.Diagnosis.plot_curves = _plot_curves

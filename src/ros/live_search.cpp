@@ -160,9 +160,7 @@ bool DiagnoseService<Service>::onDiagnose(Request& request, Response& response) 
 
 template <class Service>
 typename Service::Response DiagnoseService<Service>::answer(double window) {
-  // A low priority for this thread and those that it starts, so that on a busy machine the samples go first. If it
-  // cannot be had, the search works all the same.
-  setpriority(PRIO_PROCESS, 0, kNiceness);
+  beNice();
   const Search search = nodelet_thread_.run([this, window] { return prepare_(window); });
   const Outcome outcome = search([this](double) { stopIfAsked(); });
   stopIfAsked();
@@ -177,6 +175,8 @@ void DiagnoseService<Service>::stopIfAsked() const {
 
 template class DiagnoseService<Diagnose>;
 template class DiagnoseService<DiagnoseVehicle>;
+
+void beNice() { setpriority(PRIO_PROCESS, 0, kNiceness); }
 
 double searchSpan(double window, double kept) {
   if (!(window >= 0.0 && window <= kept))

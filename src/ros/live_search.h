@@ -76,6 +76,10 @@ struct SearchTask {
 /// What is done with the result in the nodelet's thread.
 using TakeDiagnosis = std::function<void(const VehicleDiagnosis&)>;
 
+/// Gives the calling thread, and those that it starts, a low priority, so that on a busy machine the samples go first.
+/// If it cannot be had, all works the same.
+void beNice();
+
 /// @param window  [s] as asked for, 0: everything.  @param kept  [s] diagnose_window.
 /// @return how far back to look [s].
 /// @throws std::invalid_argument  naming the window and what is allowed.

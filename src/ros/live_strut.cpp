@@ -47,7 +47,7 @@ LiveStrut::~LiveStrut() {  // nothing may call back into members that are alread
   for (ros::ServiceServer& service : services_) service.shutdown();
 }
 
-void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   for (const std::string& remark : model_.remarks()) ROS_WARN("%s%s", prefix_.c_str(), remark.c_str());
   ros::NodeHandle own = name_.empty() ? private_node : ros::NodeHandle(node, name_);
   reports_.emplace(own, options_);
@@ -64,6 +64,7 @@ void LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& privat
                own.advertiseService("save_baseline", &LiveStrut::onSaveBaseline, this),
                own.advertiseService("reset", &LiveStrut::onReset, this)};
   diagnose_.emplace(own, host_.thread(), [this](double window) { return host_.searchFor(place_, window); });
+  return own;
 }
 
 const SuspensionMonitor* LiveStrut::monitor() const {

@@ -48,7 +48,8 @@ class LiveStrut {
   LiveStrut& operator=(const LiveStrut&) = delete;
 
   /// Advertises topics and services, below the strut's name; of a strut alone they are the node's.
-  void start(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  /// @return where they are.
+  ros::NodeHandle start(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
   /// Gives a new monitor the model and the baseline of this strut.
   void begin(MessagePipeline& pipeline) const;

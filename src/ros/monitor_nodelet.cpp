@@ -1,5 +1,6 @@
 #include "monitor_nodelet.h"
 
+#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
@@ -17,6 +18,7 @@ MonitorNodelet::~MonitorNodelet() {
   // Nothing may call back into members that are already gone.
   reconfigure_.reset();
   diagnose_.reset();
+  curves_.reset();
   tick_.stop();
   body_.stop();
   topics_.reset();
@@ -59,7 +61,9 @@ void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   if (!isAlone())
     diagnostics_.emplace(node, private_node, getName(), options_, *placement_,
                          [this](Status& status) { describeInput(status); });
-  for (const auto& strut : struts_) strut->start(node, private_node);
+  std::vector<ros::NodeHandle> own;
+  for (const auto& strut : struts_) own.push_back(strut->start(node, private_node));
+  curves_.emplace(own, thread(), [this](Stamp last) { return curveTask(last); });
   topics_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
@@ -186,6 +190,26 @@ SearchTask MonitorNodelet::samplesFor(double window) {
   const StrutEstimate& estimate = monitor.modelEstimate();
   if (!model.effects().empty() && estimate.valid())
     task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor.effects(), {}};
+  return task;
+}
+
+std::optional<CurveTask> MonitorNodelet::curveTask(Stamp last) {
+  if (!pipeline_ || pipeline_->strut() == nullptr) return std::nullopt;
+  CurveTask task;
+  bool is_known = false;
+  for (std::size_t i = 0; i < struts_.size(); ++i) {
+    const SuspensionMonitor& strut = *pipeline_->strut(i);
+    const StrutEstimate& estimate = strut.modelEstimate();
+    task.models.emplace_back();
+    if (estimate.valid())
+      task.models.back() = {estimate.damping_to_mass, estimate.stiffness_to_mass, strut.effects(), {}};
+    is_known = is_known || estimate.valid();
+    task.frames.push_back(frameOf(i));
+  }
+  const Stamp newest = pipeline_->strut()->report().stamp;
+  if (!is_known || (newest >= last && newest - last < LiveCurves::kEvery)) return std::nullopt;
+  task.search =
+      samplesFor(std::min(options_.common.shell.diagnose_window, LiveCurves::kMostSamples * *pipeline_->period()));
   return task;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "input_task.h"
+#include "live_curves.h"
 #include "live_search.h"
 #include "live_settings.h"
 #include "live_strut.h"
@@ -55,6 +56,7 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   void onTick();
   bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   SearchTask samplesFor(double window);
+  std::optional<CurveTask> curveTask(Stamp last);
   void takeDiagnosis(const VehicleDiagnosis& found);
   void stopListening(const std::string& reason);
 
@@ -79,6 +81,7 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   std::optional<InputTask> input_;
   std::optional<TaskLog> input_log_;
   ros::WallTimer tick_, body_;
+  std::optional<LiveCurves> curves_;
   // Of one strut alone:
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
   // Of a vehicle:

@@ -5,9 +5,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "command.h"
+#include "html_page.h"
 #include "json_of.h"
 #include "recorded_drives.h"
+#include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/wording/drive_sentences.h"
 
 BOOST_HANA_ADAPT_STRUCT(shm::TimeHistogram::Direction, share, mean, largest);
 BOOST_HANA_ADAPT_STRUCT(shm::TimeHistogram, edges, shares, compression, rebound);
@@ -17,6 +21,7 @@ BOOST_HANA_ADAPT_STRUCT(shm::TravelStatistics, travel, travel_rate, stops);
 namespace suspension_health_monitor {
 namespace {
 
+namespace po = boost::program_options;
 using nlohmann::json;
 
 constexpr double kRows = 6.0;  // of a table, or up to twice as many
@@ -45,6 +50,60 @@ void print(const char* title, const ForceCurve& curve, double shown, const std::
 
 json toJson(const char* variable, const ForceCurve& curve) {
   return {{variable, curve.at}, {"force", curve.force}, {"stddev", curve.stddev}};
+}
+
+json toJson(const std::optional<double>& change, double stddev) {
+  if (!change) return nullptr;
+  const double half = kNinetyPercent * stddev, log = std::log1p(*change);
+  return {{"change", *change}, {"interval", {std::expm1(log - half), std::expm1(log + half)}}};
+}
+
+json toJson(const CurveChange& curve) {
+  json ranges = json::array();
+  for (const CurveChange::Range& range : curve.ranges)
+    ranges.push_back({{"from", range.from}, {"to", range.to}, {"softer", range.softer}});
+  return ranges;
+}
+
+struct OtherDrive {
+  std::string name;
+  VehicleOptions settings;
+  std::vector<IdentifyResult> struts;
+  std::vector<StrutCurves> curves;  // by strut
+};
+
+/// @throws TooLittleError  naming the bag.
+OtherDrive readOther(const po::variables_map& values, const std::string& name) {
+  try {
+    const BagOptions options = readBagOptions(values);
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), {});
+    recorded.read();
+    const std::vector<IdentifyResult> struts = recorded.identified().struts;
+    return {name, options.settings, struts, curvesOfBags(options, struts)};
+  } catch (const TooLittleError& error) {
+    throw TooLittleError(std::string("--") + kAgainst + ' ' + name + ": " + error.what());
+  }
+}
+
+json against(const OtherDrive& other, std::size_t place, const IdentifyResult& now, const StrutCurves& curves) {
+  json result{{"bag", other.name}};
+  addCurves(other.curves[place], result);
+  const std::optional<StrutOfDrive> today = strutOf(now), then = strutOf(other.struts[place]);
+  if (!today || !then) {
+    result["change"] =
+        "cannot be compared with " + other.name + ": no valid estimate of " + (then ? "this drive" : "that drive");
+    return result;
+  }
+  const DriveChange change = changeOf(today->strut, curves, then->strut, other.curves[place],
+                                      other.settings.struts[place].monitor.payload_range);
+  const StrutChange& strut = change.strut;
+  result.update({{"change", describe(change, other.name)},
+                 {"damping", toJson(strut.damping, strut.damping_stddev)},
+                 {"stiffness", toJson(strut.stiffness, strut.stiffness_stddev)},
+                 {"payload_change", strut.payload ? json(*strut.payload) : json()},
+                 {"damper_differences", toJson(change.damper)},
+                 {"spring_differences", toJson(change.spring)}});
+  return result;
 }
 
 }  // namespace
@@ -85,5 +144,26 @@ void printTravel(const TravelStatistics& travel) {
 }
 
 nlohmann::json toJson(const TravelStatistics& travel) { return jsonOf(travel); }
+
+std::vector<json> againstOther(po::variables_map values, const std::vector<IdentifyResult>& now,
+                               const std::vector<StrutCurves>& curves) {
+  std::vector<json> changes;
+  if (values.count(kAgainst) == 0) return changes;
+  const std::vector<std::string> bags{values[kAgainst].as<std::string>()};
+  values.at("bag").value() = bags;
+  const OtherDrive other = readOther(values, fileNames(bags).front());
+  for (std::size_t i = 0; i < now.size(); ++i) changes.push_back(against(other, i, now[i], curves[i]));
+  return changes;
+}
+
+json curveFindings(const AskedVehicle& vehicle, json whole, const std::string& source, const json& origin) {
+  json struts = json::array();
+  for (const std::size_t i : vehicle.asked) {
+    const json& its = vehicle.resultsOf(i, whole);
+    struts.push_back({{"strut", vehicle.names[i]}, {"against", its.value("against", json())}});
+    for (const char* curve : {"damper_curve", "spring_curve"}) struts.back()[curve] = its[curve];
+  }
+  return {{"struts", shortened(struts)}, {"source", source}, {"origin", origin}};
+}
 
 }  // namespace suspension_health_monitor

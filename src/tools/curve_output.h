@@ -1,7 +1,9 @@
 #pragma once
 
+#include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bag_options.h"
@@ -10,6 +12,8 @@
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
+
+inline constexpr const char* kAgainst = "against";  ///< name of an option
 
 /// Reads bags as drives and fits curves, from the linear struts that identify found.
 /// @param found  by strut.  @return likewise; empty curves where nothing was found, or is not asked for.
@@ -26,5 +30,20 @@ void addCurves(const StrutCurves& curves, nlohmann::json& into);
 void printTravel(const TravelStatistics& travel);
 
 nlohmann::json toJson(const TravelStatistics& travel);
+
+/// Identifies the bag of --against with all other options as they are, and compares every strut with itself there.
+/// @param now, curves  by strut, of the drives that it is compared with.
+/// @return by strut `bag`, its curves there, `change` in a sentence and, with valid estimates of both, the numbers of
+/// it; empty if --against is not given.
+/// @throws std::invalid_argument, InputError, TooLittleError  as identify, with the bag's name before.
+std::vector<nlohmann::json> againstOther(boost::program_options::variables_map values,
+                                         const std::vector<IdentifyResult>& now,
+                                         const std::vector<StrutCurves>& curves);
+
+/// What the page of curves is made of.
+/// @param whole  what was found, as --json has it.
+/// @param source  as sourceOf().  @param origin  as originOf().
+nlohmann::json curveFindings(const AskedVehicle& vehicle, nlohmann::json whole, const std::string& source,
+                             const nlohmann::json& origin);
 
 }  // namespace suspension_health_monitor

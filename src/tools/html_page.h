@@ -45,11 +45,12 @@ class HtmlPage {
 /// @return a copy with numbers to five digits: a figure shows no more, and the page stays small.
 nlohmann::json shortened(nlohmann::json value);
 
-/// The pages with style and scripts in them and "@@findings@@" where their JSON goes: of a search, and of health.
-/// Made from report_page/ when the package is built (cmake/embed_report_page.cmake).
+/// The pages with style and scripts in them and "@@findings@@" where their JSON goes: of a search, of health, of
+/// curves. Made from report_page/ when the package is built (cmake/embed_report_page.cmake).
 std::string_view searchTemplate();
 std::string_view vehicleTemplate();
 std::string_view healthTemplate();
+std::string_view curvesTemplate();
 
 /// The page of an inspection, without a script, with "@@...@@" where its text goes.
 std::string_view inspectionTemplate();

@@ -4,6 +4,7 @@
 #include "command.h"
 #include "csv_tables.h"
 #include "curve_output.h"
+#include "html_page.h"
 #include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
@@ -28,7 +29,9 @@ struct Files {
       : csv(outputFile(values, "csv")),
         findings(outputFile(values, "json")),
         settings(outputFile(values, "output")),
-        rows(csv ? csv->stream() : nullptr, vehicle) {}
+        rows(csv ? csv->stream() : nullptr, vehicle) {
+    if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
+  }
 
   void commitTables(const json& whole) {
     if (findings) findings->commit(whole.dump(2) + '\n');
@@ -36,6 +39,7 @@ struct Files {
   }
 
   std::optional<TextFile> csv, findings, settings;
+  std::optional<HtmlPage> page;
   RowTable rows;
 };
 
@@ -54,6 +58,7 @@ struct Found {
   std::vector<std::string> changes;  // by strut, against the healthy one
   std::optional<BodyInertiaResult> body;
   std::vector<StrutCurves> curves;  // by strut, if they are asked for
+  std::vector<json> against;        // by strut, if there is another drive
 };
 
 json toJson(const RecordedMonitor& recorded, const Found& found) {
@@ -68,6 +73,7 @@ json toJson(const RecordedMonitor& recorded, const Found& found) {
     json& its = recorded.vehicle().resultsOf(i, whole);
     its.update(toJson(found.vehicle.struts[i], found.changes[i]));
     if (!found.curves.empty()) addCurves(found.curves[i], its);
+    if (!found.against.empty()) its["against"] = found.against[i];
     its["mean_period"] = recorded.strut(i).input().mean_period;
   }
   const ModelReport& report = recorded.strut(0).report();
@@ -99,6 +105,7 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
       printTyre("LA", tyre->report().la, report.la);
     }
     printChange(found.changes[i]);
+    if (!found.against.empty()) printChange(found.against[i]["change"]);
     for (const std::string& warning : found.vehicle.struts[i].warnings)
       if (warning != mistake) std::printf("warning: %s\n", warning.c_str());
   }
@@ -173,15 +180,21 @@ void identifyBags(const po::variables_map& values) {
   recorded.read();
   files.rows.finish();
   Found found(recorded, options, healthy);
-  if (values.count("curves") != 0) found.curves = curvesOfBags(options, found.vehicle.struts);
-  files.commitTables(toJson(recorded, found));
+  if (values.count("curves") + values.count(kAgainst) + values.count(kReport) != 0)
+    found.curves = curvesOfBags(options, found.vehicle.struts);
+  found.against = againstOther(values, found.vehicle.struts, found.curves);
+  const json whole = toJson(recorded, found);
+  files.commitTables(whole);
+  if (files.page)
+    files.page->write(curvesTemplate(), curveFindings(vehicle, whole, join(fileNames(options.bags.paths)),
+                                                      originOf(values, options.bags.allTopics())));
   const Nominal nominal(recorded, found.vehicle.struts, options.settings);
   const bool has_settings = files.settings && !nominal.struts.empty();
   if (has_settings) files.settings->commit(nominal.text(values, options));
   print(recorded, found, table.items());
   if (has_settings)
     for (const std::string& lack : nominal.lacks) std::printf("warning: no settings of %s\n", lack.c_str());
-  std::vector<std::string> outputs{"csv", "json"};
+  std::vector<std::string> outputs{"csv", "json", kReport};
   if (has_settings) outputs.emplace_back("output");
   printWritten(values, outputs);
   requireValid(recorded, found.vehicle.struts, options);
@@ -198,11 +211,14 @@ void identify(const Arguments& arguments) {
   add("output,o", po::value<std::string>(),
       "write horizon and nominal values, with the settings given, as YAML for the monitor and --config");
   add("curves", "fit the curves of damper and spring, too: reads the bags once more");
+  add(kAgainst, po::value<std::string>(),
+      "bag of another drive with the same topics, to say by how much and where on the curves this one differs");
+  add(kReport, po::value<std::string>(), "write DIR/report.html: the curves, of both drives, as a page with figures");
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, or settings with its nominal values, to say how this one is against it");
   const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");
   if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, {"csv", "json", "output"});
+  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline, kAgainst}, {"csv", "json", "output", kReport});
   const Interruption interruption;
   identifyBags(*values);
 }

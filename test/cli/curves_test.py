@@ -17,6 +17,11 @@ def bag(program, tmp_path_factory):
     return path
 
 
+def assert_holds(curve, variable, law):
+    for at, force, stddev in zip(curve[variable], curve["force"], curve["stddev"]):
+        assert abs(force - law(at)) <= 4.0 * stddev  # by chance beyond in one of 16 000, and there are some forty
+
+
 def run(program, tmp_path, command, *arguments):
     result = tmp_path / "result.json"
     return program.succeed(command, *arguments, "--json", result), json.loads(result.read_text())
@@ -31,8 +36,25 @@ def test_curves_are_the_true_laws(program, tmp_path, bag, command):
         assert len(curve[variable]) == len(curve["force"]) == len(curve["stddev"]) > 10
         assert curve[variable] == sorted(curve[variable])
         assert curve["force"][curve[variable].index(0.0)] == 0.0
-        for at, force, stddev in zip(curve[variable], curve["force"], curve["stddev"]):
-            assert abs(force - law(at)) <= 4.0 * stddev  # by chance beyond in one of 16 000, and there are some forty
+        assert_holds(curve, variable, law)
+
+
+@pytest.mark.parametrize("model, effect", [("ugv", None), ("sedan", ("front_left", HARDER))])
+@pytest.mark.parametrize("command", [["identify", "--curves"], ["diagnose"]])
+def test_curves_of_a_vehicle_are_those_of_its_struts(program, tmp_path, command, model, effect):
+    bag, vehicle = tmp_path / "drive.bag", tmp_path / "vehicle.yaml"
+    hidden = ["--effect", f"{effect[0]}/asymmetric_damping={effect[1]}"] if effect else []
+    told = program.succeed("simulate", "--vehicle-model", model, "--duration", "60", "--rate", "100", "-o", bag,
+                           "--vehicle-file", vehicle, *hidden)
+    own = {line.split()[0]: tuple(map(float, line.split()[1:3])) for line in told.splitlines()[2:] if len(line.split()) > 2}
+    text, result = run(program, tmp_path, command[0], bag, "--vehicle", vehicle, *command[1:])
+    assert text.count("damper at [m/s]") == text.count("spring at [mm]") == len(own) == len(result["struts"])
+    for name, (b1, b0) in own.items():
+        harder = effect[1] if effect and name == effect[0] else 0.0
+        curves = result["struts"][name]
+        assert len(curves["damper_curve"]["force"]) > 10 and len(curves["spring_curve"]["force"]) > 10
+        assert_holds(curves["damper_curve"], "velocity", lambda v: b1 * v + harder * abs(v))
+        assert_holds(curves["spring_curve"], "travel", lambda d: b0 * d)
 
 
 def test_forces_are_in_newtons_where_the_mass_is_known(program, tmp_path, bag):

@@ -146,6 +146,8 @@ def test_results_draw_themselves(results, tmp_path):
         _, axes = pyplot.subplots(len(figure.axes), squeeze=False)
         assert result.plot(axes=list(axes[:, 0])) is not figure
         pyplot.close("all")
+    damper, spring = results["diagnose"].plot_curves().axes
+    assert damper.lines and damper.collections and spring.lines and "m/s]" in damper.get_xlabel()
     assert_healthy_is_in_view(shm.health(results["simulate"], nominal_damping_to_mass=9.0))
     with pytest.raises(ValueError, match="1 axes, must be 2"):
         results["identify"].plot(axes=[None])

@@ -17,7 +17,7 @@ from ros_session import (PACKAGE, PATIENCE, UNLIMITED, Collector, launch, load_n
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Trigger
-from suspension_health_monitor.msg import CouplingInUse, ParameterEstimate
+from suspension_health_monitor.msg import CouplingInUse, ParameterEstimate, StrutCurve
 from suspension_health_monitor.srv import Diagnose, DiagnoseVehicle, SetEffects
 
 STRUTS = ("front", "rear")
@@ -56,6 +56,7 @@ class VehicleTest(unittest.TestCase):
         cls.tree = Collector("/diagnostics_agg", DiagnosticArray)
         cls.coupling = Collector("/vehicle/coupling", CouplingInUse)
         cls.la = {name: Collector(f"/{name}/la", ParameterEstimate) for name in STRUTS}
+        cls.springs = {name: Collector(f"/{name}/spring_curve", StrutCurve) for name in STRUTS}
         cls.models = cls.write("models.yaml", {"struts": {"front": {"damping_to_mass": 3.0, "stiffness_to_mass": 50.0}}})
         cls.program = launch("vehicle.launch", vehicle=cls.vehicle, strut_config=cls.strut_config,
                              model_file=cls.models, aggregate="true")
@@ -127,6 +128,14 @@ class VehicleTest(unittest.TestCase):
                 true = getattr(self.truth(name), figure)
                 found = float(np.median([getattr(message, figure) for message in late]))
                 self.assertAlmostEqual(found / true, 1.0, delta=TOLERANCE, msg=f"{name} {figure}")
+
+    def test_curves_of_every_strut_are_its_own(self):
+        for name, collector in self.springs.items():
+            curve = collector.wait_for(lambda message: True, "a curve of the spring")
+            self.assertGreater(len(curve.at), 10)
+            for at, force, stddev in zip(curve.at, curve.force, curve.stddev):  # which do not know of the coupling's error
+                true = self.truth(name).stiffness_to_mass * at
+                self.assertAlmostEqual(force, true, delta=4.0 * stddev + COUPLING_TOLERANCE * abs(true), msg=f"{name} at {at}")
 
     def test_coupling_is_not_known_at_first_and_then_that_of_the_body(self):
         self.assertFalse(self.unknown.known)

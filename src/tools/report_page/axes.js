@@ -70,6 +70,13 @@ class Axis {
   }
 }
 
+/** What a force may depend on. */
+const AXES = {
+  travel: {title: 'travel', unit: 'm'},
+  travel_rate: {title: 'travel rate', unit: 'm/s'},
+  time: {title: 'time', unit: 's'}
+};
+
 /** Somewhat more room than the values need. */
 function padded(values, share = 0.06) {
   let low = Infinity, high = -Infinity;

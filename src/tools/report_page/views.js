@@ -7,13 +7,6 @@ const NAMES = {
   after: 'with the effect'
 };
 
-/** What a force may depend on. */
-const AXES = {
-  travel: {title: 'travel', unit: 'm'},
-  travel_rate: {title: 'travel rate', unit: 'm/s'},
-  time: {title: 'time', unit: 's'}
-};
-
 const transposed = matrix => matrix[0].map((_, j) => matrix.map(row => row[j]));
 
 /** A map of matrices[x][y] for figures: rows upwards along y, nothing where no sample was. */
