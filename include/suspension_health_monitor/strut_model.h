@@ -57,15 +57,15 @@ struct StrutModel {
 /// Why a fit gave no model that can be named.
 enum class FitFailure {
   kNone,
-  kRunsAway,         ///< no model near the start is stable on these drives
-  kNeverActs,        ///< an effect of the model does nothing here
-  kNotSolved,        ///< the solver came to no end
-  kNoSpring,         ///< b0 is not above 0
-  kTooFast,          ///< too fast for the sampling: more than 32 integration steps per sample
-  kWrongSign,        ///< its coefficient is not above 0, as physics has it
-  kShapeAtEnd,       ///< a shape is at the end of its range, where the law is another one
-  kToldByFrequency,  ///< what seems to change with time changes as well with the frequency of the motion
-  kWanders,          ///< the offset that it makes is not larger than what wanders beside it
+  kRunsAway,                 ///< no model near the start is stable on these drives
+  kNeverActs,                ///< an effect of the model does nothing here
+  kNotSolved,                ///< the solver came to no end
+  kNoSpring,                 ///< b0 is not above 0
+  kTooFast,                  ///< too fast for the sampling: more than 32 integration steps per sample
+  kWrongSign,                ///< its coefficient is not above 0, as physics has it
+  kShapeAtEnd,               ///< a shape is at the end of its range, where the law is another one
+  kConfoundedWithFrequency,  ///< what seems to change with time changes as well with the frequency of the motion
+  kWanders,                  ///< the offset that it makes is not larger than what wanders beside it
 };
 
 /// One number of a model as files and tables list it.

@@ -14,14 +14,14 @@ class LongWork {
   /// @param progress  called with the share that is done, 0 .. 1, or None.
   explicit LongWork(pybind11::object progress) : progress_(std::move(progress)) {}
 
-  /// Runs the work; once it is done the callback is told so.
+  /// Runs the work; once it is done the callback is called with 1.
   template <class Work>
   auto run(const Work& work) {
     auto result = [&] {
       const pybind11::gil_scoped_release released;
       return work();
     }();
-    if (told_ < 1.0) tell(1.0);
+    if (reported_ < 1.0) report(1.0);
     return result;
   }
 
@@ -31,7 +31,7 @@ class LongWork {
     if (!isDue(telling_due_) && share < 1.0) return;
     const pybind11::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
-    tell(share);
+    report(share);
   }
 
   /// The same for work in many small steps: one of them costs nothing.
@@ -39,7 +39,7 @@ class LongWork {
     if (++steps_ % kSteps == 0) update(share);
   }
 
-  /// The same where nothing is to be told.
+  /// The same without a callback.
   void step() {
     if (++steps_ % kSteps != 0 || !isDue(asking_due_)) return;
     const pybind11::gil_scoped_acquire held;
@@ -60,8 +60,8 @@ class LongWork {
     return true;
   }
 
-  void tell(double share) {
-    told_ = share;
+  void report(double share) {
+    reported_ = share;
     if (!progress_.is_none()) progress_(share);
   }
 
@@ -70,7 +70,7 @@ class LongWork {
 
   pybind11::object progress_;
   unsigned steps_ = 0;
-  double told_ = 0.0;
+  double reported_ = 0.0;
   Time telling_due_{}, asking_due_{};
 };
 

@@ -97,7 +97,7 @@ std::vector<Drive> toDrives(const Recordings& recordings, const MonitorOptions& 
                             LongWork& work);
 
 /// @param judge  makes a result of drives and options: compare() or diagnose().
-/// @param judging  its options, all but those that are told here.
+/// @param judging  its options, all but those that are given here.
 /// @return the result.
 /// @throws std::invalid_argument  as periodOf(), or saying why there is none.
 template <class Judge, class Options>

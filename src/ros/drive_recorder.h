@@ -35,7 +35,7 @@ class DriveRecorder {
   /// @throws std::invalid_argument  naming a topic of a type that cannot be recorded.
   std::vector<std::string> connect(const std::vector<std::string>& own);
 
-  /// Writes a message if its topic is to be recorded. What goes wrong is told by commit().
+  /// Writes a message if its topic is to be recorded. What goes wrong is reported by commit().
   template <class Message>
   void record(const std::string& topic, const ros::Time& time, const Message& message) {
     if (topics_.count(topic) != 0) guarded([&] { bag_.write(topic, time, message), ++count_; });

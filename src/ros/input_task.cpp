@@ -149,14 +149,14 @@ void InputTask::noteMessage(std::size_t sensor, const ros::Time& stamp) {
 void InputTask::restart() {
   gaps_before_ = 0;
   refusal_.clear();
-  told_of_vehicle_ = told_of_strut_ = Rejected(sensors_.size());
+  reported_of_vehicle_ = reported_of_strut_ = Rejected(sensors_.size());
 }
 
 void InputTask::describe(const MessagePipeline* pipeline, const std::string& missing, Status& status) {
   summarize(all_sensors_, pipeline, missing, status);
   if (pipeline != nullptr) {
     describeSeries(*pipeline, status);
-    describeSensors(all_sensors_, *pipeline, told_of_vehicle_, status);
+    describeSensors(all_sensors_, *pipeline, reported_of_vehicle_, status);
     describeMounts(*pipeline, status);
   }
   describeSilence(all_sensors_, status);
@@ -166,7 +166,7 @@ void InputTask::describe(const MessagePipeline* pipeline, const std::string& mis
 void InputTask::describeStrut(std::size_t strut, const MessagePipeline* pipeline, const std::string& missing,
                               Status& status) {
   summarize(own_sensors_[strut], pipeline, missing, status);
-  if (pipeline != nullptr) describeSensors(own_sensors_[strut], *pipeline, told_of_strut_, status);
+  if (pipeline != nullptr) describeSensors(own_sensors_[strut], *pipeline, reported_of_strut_, status);
   describeSilence(own_sensors_[strut], status);
 }
 

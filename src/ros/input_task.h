@@ -16,8 +16,8 @@
 
 namespace suspension_health_monitor {
 
-/// The topics that anybody publishes, as the master told at most half a second ago: all silent sensors of a report,
-/// which is due once a second, ask it once.
+/// The topics that anybody publishes, as the master listed them at most half a second ago: all silent sensors of a
+/// report, which is due once a second, ask it once.
 class PublishedTopics {
  public:
   /// @return empty if the master does not answer.
@@ -118,7 +118,7 @@ class InputTask {
   PublishedTopics published_;
   std::string refusal_;
   std::uint64_t gaps_before_ = 0;
-  Rejected told_of_vehicle_, told_of_strut_;
+  Rejected reported_of_vehicle_, reported_of_strut_;
   std::optional<ros::Time> clock_;  // at the last report
 };
 

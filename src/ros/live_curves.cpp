@@ -12,7 +12,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kLook = 1.0;                       // [s] between two looks whether a fit is due
-constexpr Stamp kAgain = std::chrono::seconds(10);  // of drive, after a fit that has told nothing
+constexpr Stamp kAgain = std::chrono::seconds(10);  // of drive, after a fit without a curve
 
 /// @param header  with the stamp of the newest sample.
 /// @return whether there is something to tell.

@@ -58,7 +58,7 @@ class LiveCurves {
   MonitorThread& nodelet_thread_;
   Prepare prepare_;
   std::vector<Topics> topics_;  // by strut
-  Stamp last_ = -kEvery;  // the first fit is due at once
+  Stamp last_ = -kEvery;        // the first fit is due at once
   ros::CallbackQueue queue_;
   ros::WallTimer timer_;
   ros::AsyncSpinner spinner_;

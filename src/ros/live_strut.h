@@ -81,7 +81,7 @@ class LiveStrut {
 
   StrutHost& host_;
   std::size_t place_;
-  std::string name_, prefix_;  // of what is told of it
+  std::string name_, prefix_;  // in logs and diagnostics
   PipelineOptions options_;
   LiveModel model_;
   LiveBaseline baseline_;

@@ -44,7 +44,7 @@ class DriveSummary {
   std::string strut_;
   double timeout_;  // [s]
   MonitorReport newest_;
-  bool is_news_ = false;  // something has come since it was told
+  bool is_news_ = false;  // something has come since it was reported
   LevelTimes times_;
   ros::Time clock_;
   ros::WallTime stands_since_;

@@ -27,10 +27,10 @@ void TaskLog::note(const Status& status) {
     now_ = said;
     since_ = now;
   }
-  if (told_ == said || now - since_ < lasting_) return;
-  const bool is_worth_telling = said.level >= least_ || (told_ && told_->level >= least_);
-  told_ = said;
-  if (is_worth_telling)
+  if (reported_ == said || now - since_ < lasting_) return;
+  const bool is_worth_reporting = said.level >= least_ || (reported_ && reported_->level >= least_);
+  reported_ = said;
+  if (is_worth_reporting)
     ROS_LOG(lineOf(said.level), ROSCONSOLE_DEFAULT_NAME, "%s: %s: %s", task_.c_str(),
             nameOf(static_cast<HealthLevel>(said.level)), status.message.c_str());
 }

@@ -14,9 +14,9 @@ class TaskLog {
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
   /// @param task  as the lines name it.
-  /// @param least  levels below are told only as the end of one that was.
+  /// @param least  levels below are reported only as the end of one that was.
   /// @param lasting  [s] of wall time that a level must last first. Above 0 a new reason of a level from `least` on is
-  ///        told, too, once it has lasted as long; numbers in it may change.
+  ///        reported, too, once it has lasted as long; numbers in it may change.
   explicit TaskLog(const std::string& task, unsigned char least = Status::OK, double lasting = 0.0)
       : task_(task), least_(least), lasting_(lasting) {}
 
@@ -35,7 +35,7 @@ class TaskLog {
   std::string task_;
   unsigned char least_;
   ros::WallDuration lasting_;
-  std::optional<Said> told_, now_;
+  std::optional<Said> reported_, now_;
   ros::WallTime since_;  // of now_
 };
 

@@ -85,7 +85,7 @@ void requireSeparateFiles(const boost::program_options::variables_map& values, c
                           const std::vector<std::string>& outputs);
 
 /// Tells people which files were written.
-/// @param outputs  as above. What is no regular file (a pipe, /dev/stdout) is not told of.
+/// @param outputs  as above. What is no regular file (a pipe, /dev/stdout) is not named.
 void printWritten(const boost::program_options::variables_map& values, const std::vector<std::string>& outputs);
 
 /// @return paths without their folders.

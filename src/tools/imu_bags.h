@@ -36,7 +36,7 @@ struct ImuBags {
   double end = std::numeric_limits<double>::infinity();
   std::shared_ptr<const tf2::BufferCore> transforms;  ///< static ones of all bags, if they are wanted
 
-  TopicGaps* gaps = nullptr;  ///< told of all that is read, if it is given; outlives the reading
+  TopicGaps* gaps = nullptr;  ///< takes note of all that is read, if it is given; outlives the reading
   bool reads_ahead = true;    ///< in a second thread
 
   std::vector<std::string> allTopics() const;  ///< of sensors

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/health/inspection.h"
-
 #include <array>
 #include <boost/algorithm/string/replace.hpp>
 #include <cstdio>
@@ -13,6 +11,7 @@
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/free_decay.h"
+#include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
 namespace {

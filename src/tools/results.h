@@ -24,7 +24,7 @@ void printResult(const char* name, const StrutEstimate& estimate, const std::opt
 /// Over the whole drive, which is what to trust; then LS and LA at its end.
 void printEstimates(const IdentifyResult& found, const std::optional<double>& mass);
 
-/// @param change  how the strut is against the healthy one, in a sentence; nothing is told of an empty one.
+/// @param change  how the strut is against the healthy one, in a sentence; an empty one is not printed.
 void printChange(const std::string& change);
 
 nlohmann::json toJson(const StrutEstimate& estimate);

@@ -132,7 +132,7 @@ void simulate(const Arguments& arguments) {
   add("set", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
       "NAME=VALUE: any option of `suspension_bag options simulator`, or `options vehicle`");
   add("vehicle-model", po::value<std::string>(),
-      ("a whole vehicle, at 100 Hz unless told: " + vehicleNames() + ", or a YAML file").c_str());
+      ("a whole vehicle, at 100 Hz unless set: " + vehicleNames() + ", or a YAML file").c_str());
   add("vehicle-file", po::value<std::string>(), "write the vehicle's topics and positions as YAML");
   add("effect", po::value<std::vector<std::string>>()->default_value({}, "")->composing(),
       "NAME=COEFFICIENT[,SHAPE=VALUE]...: hide this effect in strut or sensor (`suspension_bag effects`); in a vehicle "

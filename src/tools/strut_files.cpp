@@ -133,12 +133,11 @@ std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& opt
   const std::optional<StrutOfDrive> strut = strutOf(found);
   if (!strut) return "no estimate is valid";
   if (!found.isSteady()) return "the strut is not the same over the drive";
-  constexpr double kTold = 3.0;  // standard deviations
   std::vector<std::string> lacks;
   const auto ask = [&](const char* name, double value, double stddev, double warn) {
-    if (kTold * stddev <= warn * value) return;
+    if (kProven * stddev <= warn * value) return;
     lacks.push_back(formatted("%s is known to %.2g %% only, and %.2g %% are needed for a warning at %.3g %%", name,
-                              100.0 * stddev / value, 100.0 * warn / kTold, 100.0 * warn));
+                              100.0 * stddev / value, 100.0 * warn / kProven, 100.0 * warn));
   };
   const StrutEstimate& its = strut->strut;
   ask("damping/mass", its.damping_to_mass, its.damping_to_mass_stddev, options.damping_warn);

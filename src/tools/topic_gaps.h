@@ -14,7 +14,7 @@ class TopicGaps {
  public:
   /// @param timeout  [s] a longer silence is one.
   explicit TopicGaps(double timeout) : timeout_(fromSeconds(timeout)) {}
-  TopicGaps(const TopicGaps&) = delete;  // what it is told by refers to it
+  TopicGaps(const TopicGaps&) = delete;  // its callbacks refer to it
   TopicGaps& operator=(const TopicGaps&) = delete;
 
   /// @param topics  whose readings are all needed.

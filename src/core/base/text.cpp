@@ -59,7 +59,6 @@ std::string sizeInPercent(double change) { return formatted("%ld %%", std::lroun
 std::string percent(double share) { return formatted("%.*f %%", share < 0.01 ? 1 : 0, 100.0 * share); }
 
 std::string describeEnough(double seconds) {
-  constexpr double kDay = 86400.0;  // [s]; more is no answer, but a strut that is none
   if (!(seconds < kDay)) return "";
   return formatted(" (%.3g s in one piece are enough)", std::ceil(10.0 * seconds) / 10.0);
 }

@@ -129,15 +129,15 @@ const WindowEstimate* BlockEstimator::update() {
   if (!has_theta_) return nullptr;
   theta_ = best_.theta;
   // Blocks at rest can only make it worse: what is known is held.
-  if (newestSayNothing() && (best_.explained < kMajority || best_.worst() >= told_worst_)) return nullptr;
-  told_worst_ = best_.worst();
+  if (newestSayNothing() && (best_.explained < kMajority || best_.worst() >= reported_worst_)) return nullptr;
+  reported_worst_ = best_.worst();
   return &best_;
 }
 
 bool BlockEstimator::start() {
   const bool is_alone = equations_.columns().neighbours == 0;
   scatter_ = 1.0;  // what was known is lost
-  told_worst_ = HUGE_VAL;
+  reported_worst_ = HUGE_VAL;
   // Where a strut was known and lost few blocks tell it from what went before, as from a burst of wrong readings.
   const bool was_known = is_alone && weights_.usual.size() > 0;
   if (startBy(std::min(count_, kBlockTuning.start_blocks)) || (was_known && startBy(kBlockWindows.front()))) {

@@ -164,9 +164,8 @@ class FreeFormLaws {
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 
-/// @return standard deviation of what an interpolation of z'' cannot tell, laws taken out; 0 if there are too few
-/// samples.
-double untold(const Segments& segments, const StrutModel& model) {
+/// @return standard deviation of what neither an interpolation of z'' nor laws predict; 0 if there are too few samples.
+double unpredicted(const Segments& segments, const StrutModel& model) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return 0.0;
@@ -194,7 +193,7 @@ double ofBothSensors(double body_noise, double period, const StrutModel& model) 
 
 double estimateNoiseFloor(const Records& records, const StrutModel& model) {
   const double floor = records.front()->noise().empty()
-                           ? ofBothSensors(untold(segmentsOf(records), model), records.front()->period(), model)
+                           ? ofBothSensors(unpredicted(segmentsOf(records), model), records.front()->period(), model)
                            : floorOfKnownNoise(records, model);
   return floor > 0.0 ? std::max(floor, accuracyOfFreeRuns(records)) : 0.0;
 }

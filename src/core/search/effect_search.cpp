@@ -55,9 +55,9 @@ double shareOfTurning(const Records& records, const HoldOut& held_out, const Lin
       measured.push_back(segment->body[static_cast<std::size_t>(channel)]);
     const Eigen::VectorXd turning = joined(measured);
     if (turning.size() < count) continue;  // not measured in one of the drives
-    const Eigen::Vector3d told = solveSymmetric(strut.transpose() * weighted, weighted.transpose() * turning);
+    const Eigen::Vector3d explained = solveSymmetric(strut.transpose() * weighted, weighted.transpose() * turning);
     const double whole = judged.dot(turning.cwiseAbs2());
-    if (whole > 0.0) most = std::max(most, 1.0 - judged.dot((turning - strut * told).cwiseAbs2()) / whole);
+    if (whole > 0.0) most = std::max(most, 1.0 - judged.dot((turning - strut * explained).cwiseAbs2()) / whole);
   }
   return most;
 }

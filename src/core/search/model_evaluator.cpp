@@ -219,7 +219,7 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
     if (!fitted.ranked.fitted && candidate.second_start)
       fitted = evaluate(*candidate.second_start, current.fit.initial, &current);
     fitted.added = candidate.added;
-    if (isToldByFrequency(fitted, current)) fitted = failed(current, FitFailure::kToldByFrequency);
+    if (isConfoundedWithFrequency(fitted, current)) fitted = failed(current, FitFailure::kConfoundedWithFrequency);
     if (wanders(fitted, current)) fitted = failed(current, FitFailure::kWanders);
     fitted.added = candidate.added;
     fitted.ranked.effects = candidate.ranked.effects;
@@ -230,7 +230,7 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
   forEachInParallel(wanted.size(), options_.threads, fit, [&] { tick(++done / static_cast<double>(wanted.size())); });
 }
 
-bool ModelEvaluator::isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const {
+bool ModelEvaluator::isConfoundedWithFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const {
   const std::vector<ActiveEffect>& effects = candidate.ranked.model.effects;
   if (!candidate.ranked.significant || effects.empty() || effects.back().effect.name != candidate.added ||
       !changesSlowly(effects.back()))

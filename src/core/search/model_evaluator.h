@@ -78,7 +78,7 @@ class ModelEvaluator {
   void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
   EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
   FitFailure againstPhysics(const ModelFit& fit) const;
-  bool isToldByFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
+  bool isConfoundedWithFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
   bool wanders(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
 
   const Records& records_;

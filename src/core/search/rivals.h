@@ -46,7 +46,7 @@ inline Polyline windowsOf(const Records& records, double stiffness_to_mass) {
 
 /// The time that a window's frequency tells, by its own time: by the windows whose frequencies are next to its own, one
 /// below and one above, not by its own time. At the ends by the two next ones.
-inline Polyline toldByFrequency(Polyline windows) {
+inline Polyline timeByFrequency(Polyline windows) {
   Polyline result;
   if (windows.size() < 3) return result;
   std::sort(windows.begin(), windows.end());
@@ -89,24 +89,24 @@ inline bool changesSlowly(const ActiveEffect& active) {
 inline ForceEffect frequencyRival(const ModelFit& fit, const Records& records, double stiffness_to_mass) {
   const ActiveEffect& last = fit.model.effects.back();
   const ForceEffect& effect = last.effect;
-  const Polyline told = toldByFrequency(windowsOf(records, stiffness_to_mass));
+  const Polyline by_frequency = timeByFrequency(windowsOf(records, stiffness_to_mass));
   ForceEffect rival = effect;
   if (effect.lasts) {
     rival.memory_rate = {};
     rival.lasts = false;
     rival.shapes.clear();
-    rival.force = [told, law = effect.force, memory = lastMemories(fit, records), known = last.shapes](
+    rival.force = [by_frequency, law = effect.force, memory = lastMemories(fit, records), known = last.shapes](
                       const StrutMotion& motion, const double*) {
       StrutMotion there = motion;
-      there.memory = valueAt(memory, valueAt(told, motion.time));
+      there.memory = valueAt(memory, valueAt(by_frequency, motion.time));
       return law(there, known.data());
     };
     return rival;
   }
-  const auto instead = [told](const auto& law) {
-    return [told, law](const StrutMotion& motion, const double* shapes) {
+  const auto instead = [by_frequency](const auto& law) {
+    return [by_frequency, law](const StrutMotion& motion, const double* shapes) {
       StrutMotion there = motion;
-      there.time = valueAt(told, motion.time);
+      there.time = valueAt(by_frequency, motion.time);
       return law(there, shapes);
     };
   };

@@ -31,7 +31,7 @@ inline std::vector<std::pair<std::size_t, std::size_t>> stretchesOf(std::size_t 
 /// Where a fit of a law may begin that the linear response cannot tell: one with a kink or a memory that carries so
 /// much of the strut's force that b1 and b0 without it are far from those beside it.
 ///
-/// The travel is told by the measurements themselves, d'' = w'' - z'', integrated twice and once by an integral that
+/// The travel follows from the measurements alone, d'' = w'' - z'', integrated twice and once by an integral that
 /// forgets what is slower than a third of the natural frequency (motionError()). Along it the law is one more column of
 ///   z'' = b1 v + b0 d + sum_j c_j f_j + c f,
 /// each behind the filter of the drive if it has one, by least squares over the training samples, shape by shape of the

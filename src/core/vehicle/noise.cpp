@@ -194,18 +194,19 @@ Drive without(const Weights& weights, std::size_t strut, const Drive& drive, con
   Drive cleaned;
   cleaned.low_pass.taps = drive.low_pass.taps;
   for (std::size_t k = 0; k < drive.samples.size(); ++k) {
-    double told = 0.0;
+    double predicted = 0.0;
     bool is_known = true;
     Eigen::Index column = 0;
     for (std::size_t j = 0; j < left.size() && is_known; ++j) {
       if (j == strut) continue;
       is_known = left[j].room[k] > reach;
       if (is_known)
-        told += weights.col(column++).dot(left[j].values.segment(static_cast<Eigen::Index>(k) - reach, weights.rows()));
+        predicted +=
+            weights.col(column++).dot(left[j].values.segment(static_cast<Eigen::Index>(k) - reach, weights.rows()));
     }
     if (!is_known) continue;
     cleaned.samples.push_back(drive.samples[k]);
-    cleaned.samples.back().sprung_acceleration -= told;
+    cleaned.samples.back().sprung_acceleration -= predicted;
     if (!drive.low_pass.unfiltered.empty()) cleaned.low_pass.unfiltered.push_back(drive.low_pass.unfiltered[k]);
   }
   return cleaned;

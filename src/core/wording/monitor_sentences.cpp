@@ -101,7 +101,6 @@ std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptio
 namespace {
 
 std::string describeKnown(double known_to, double enough, double seconds) {
-  constexpr double kDay = 86400.0;  // [s]
   if (!std::isfinite(known_to)) return {};
   const std::string known = "; damping and stiffness are known to " + sizeInPercent(known_to);
   if (!(seconds > 0.0)) return known;

@@ -144,7 +144,8 @@ const char* reasonOf(FitFailure failure) {
     case FitFailure::kTooFast: return "too fast for this sampling";
     case FitFailure::kWrongSign: return "its coefficient would have to be negative";
     case FitFailure::kShapeAtEnd: return "is another law at the end of its range";
-    case FitFailure::kToldByFrequency: return "time and the frequency of the motion go together in these drives";
+    case FitFailure::kConfoundedWithFrequency:
+      return "time and the frequency of the motion go together in these drives";
     case FitFailure::kWanders: return "the offset wanders: a body that leans, or a sensor that drifts";
     case FitFailure::kNone: break;
   }

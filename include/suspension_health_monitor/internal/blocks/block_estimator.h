@@ -139,7 +139,7 @@ class BlockEstimator {
   BlockVector theta_;
   bool has_theta_ = false;
   double newest_worst_ = 0.0;     // larger relative standard deviation of b1 and b0 by the newest blocks, kWindows[0]
-  double told_worst_ = HUGE_VAL;  // WindowEstimate::worst() of what update() returned last
+  double reported_worst_ = HUGE_VAL;  // WindowEstimate::worst() of what update() returned last
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;
   struct Shorter {

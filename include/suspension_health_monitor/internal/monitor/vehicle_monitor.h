@@ -84,7 +84,6 @@ class VehicleMonitor {
 
   /// @return what fitBody() found last against the vehicle file; of one strut there is nothing.
   const VehicleMistake& mistake() const { return mistake_; }
-  Eigen::ArrayXXd by_links_;  // VehicleClaims::byLinks()
 
   /// @return the estimate over all readings so far, as SuspensionMonitor::overTheDrive(). Not for the sample path.
   StrutEstimate overTheDrive(std::size_t strut);
@@ -116,6 +115,7 @@ class VehicleMonitor {
   std::optional<BodyFitResult> body_;
   std::optional<VehicleClaims> claims_;  // while they are worked through
   VehicleMistake mistake_{VehicleMistake::Kind::kTooLittle, {}};
+  Eigen::ArrayXXd by_links_;  // VehicleClaims::byLinks()
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
   std::int64_t samples_ = 0;      // since the rows are known
