@@ -60,8 +60,8 @@ def _row(history, prognosis):
         return history.vehicle, history.strut, "0", "-", "-", wording.of_strut(history, None), last, "-"
     effects = ", ".join(each.name for each in prognosis.effects if each.present) or "-"
     spans = (wording.span(prognosis.wear[part]) for part in PARTS)
-    return (history.vehicle, history.strut, str(prognosis.drives), *spans, wording.of_strut(history, prognosis), last,
-            effects)
+    said = "; ".join([wording.of_strut(history, prognosis), *map(wording.change, prognosis.changes)])
+    return history.vehicle, history.strut, str(prognosis.drives), *spans, said, last, effects
 
 
 def as_dict(history, prognosis):
