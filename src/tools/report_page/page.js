@@ -8,7 +8,7 @@ function buildPage() {
   const findings = readFindings();
   const timeView = new TimeView(findings.drives.map(unpackDrive), Boolean(findings.after));
   showPage(headline(findings), [
-    dataBox(findings), verdictSection(findings), travelSection(findings), curveSection(findings),
+    dataBox(findings), verdictSection(findings), curveSection(findings), travelSection(findings),
     ladderSection(findings),
     section(
         'time', 'Measured against predicted',
