@@ -77,10 +77,33 @@ class DamperTemperature:
     per_kelvin: float  # change of ln damping [1/K]
     per_kelvin_stddev: float  # [1/K]
 
+class TravelDirection:
+    largest: float  # [m] or [m/s]
+    mean: float
+    share: float  # of the time
+
+class TimeHistogram:
+    compression: TravelDirection
+    edges: Numbers  # [m] or [m/s], compression above 0
+    rebound: TravelDirection
+    shares: Numbers  # of the time, by bin
+
+class StopUse:
+    effect: str
+    gap: float  # [m]
+    hits: int
+    near: float  # share of the time in the last tenth of the gap or beyond it
+
+class Travel:
+    stops: List[StopUse]  # of the model
+    travel: TimeHistogram
+    travel_rate: TimeHistogram
+
 class Diagnosis:
     base: RankedModel  # the model that the search started with, fitted
     base_fit_percent: float
     change: str  # against nominal values, in a sentence; empty: none are given
+    costs: List[Dict[str, Any]]  # by effect found what leaving it out does to b1 and b0, as --json has it
     damper_curve: Dict[str, Numbers]  # velocity [m/s], compression above 0; force, stddev over the body's mass [m/s^2]
     explained_share: float  # of the structure, by the effects named
     extended: Optional[RankedModel]  # the model with what was found, as judged, or None
@@ -98,6 +121,7 @@ class Diagnosis:
     suggested_drive: str  # what to record next
     summary: str  # the verdict in a sentence
     surface_share: float  # that a force over travel and rate would take
+    travel: Travel  # by the model's free run
     verdict: str  # effect_found, suspect, nothing_missing or unexplained
     def plot(self, axes: Any = ...) -> Any: ...
     def plot_curves(self, axes: Any = ...) -> Any: ...

@@ -95,9 +95,10 @@ auto diagnoseDrives(const Arguments& arguments, int threads, LongWork& work) {
   const VehicleDiagnosis found = diagnoseBags(asked, searching);
   const std::vector<std::string> changes = changesOf(asked);
   return byStrut(asked.options, [&](std::size_t i) {
-    SearchedStrut result{found.struts[i], changes[i], {}};
+    SearchedStrut result{found.struts[i], changes[i]};
     requireEnough(result.shortcoming, result.reason, asked.options.vehicle.prefix(i, ": "));
     result.curves = strutCurves(found.drives[i], result.model(), asked.options.period());
+    result.travel = travelStatistics(found.drives[i], result.model(), asked.options.period());
     result.verdict = found.verdictOn(i);
     result.selected = found.selected(i);
     return result;

@@ -75,14 +75,36 @@ py::dict columnsOf(const char* variable, const ForceCurve& curve) {
   return columns;
 }
 
+/// @return by effect what leaving it out does to b1 and b0, by the names of JSON.
+py::list costs(const SearchedStrut& found) {
+  py::list costs;
+  for (const EffectCost& cost : costsOf(found)) {
+    py::dict row;
+    row["effect"] = cost.effect;
+    row["sentence"] = describe(cost);
+    row["harmless"] = cost.isHarmless();
+    for (const auto& [name, change] : {std::pair("damping", cost.damping), {"stiffness", cost.stiffness}})
+      if (change && cost.fits_without)
+        row[name] = py::dict(py::arg("change") = change->value, py::arg("stddev") = change->stddev);
+    costs.append(row);
+  }
+  return costs;
+}
+
 void bindDiagnosis(py::module& module) {
+  ResultClass<TimeHistogram::Direction>(module, "TravelDirection", "Compression or rebound.");
+  ResultClass<TimeHistogram>(module, "TimeHistogram", "How long travel or its rate had which value.");
+  ResultClass<StopUse>(module, "StopUse", "How a stop is used.");
+  ResultClass<TravelStatistics>(module, "Travel", "How far and how fast the strut moved.");
   ResultClass<RankedModel>(module, "RankedModel", "The model with effects added, judged by what no fit has seen.")
       .add("failure", [](const RankedModel& self) { return reasonOf(self.failure); });
   ResultClass<FittedModel>(module, "FittedModel", "A model with its uncertainty.");
   ResultClass<SearchedStrut>(module, "Diagnosis", "What a search for missing effects found.")
       .add("model", &SearchedStrut::model)
       .add("damper_curve", [](const SearchedStrut& self) { return columnsOf("velocity", self.curves.damper); })
-      .add("spring_curve", [](const SearchedStrut& self) { return columnsOf("travel", self.curves.spring); });
+      .add("spring_curve", [](const SearchedStrut& self) { return columnsOf("travel", self.curves.spring); })
+      .add("travel", &SearchedStrut::travel)
+      .add("costs", &costs);
 }
 
 }  // namespace

@@ -97,10 +97,11 @@ SearchedStrut diagnoseArrays(const Recordings& recordings, const OptionMap& keyw
   searching.candidates = candidates;
   searching.threads = threads;
   const auto search = [&](const std::vector<Drive>& drives, const DiagnoseOptions& its) {
-    SearchedStrut found{diagnose(drives, its), "", {}};
+    SearchedStrut found{diagnose(drives, its), ""};
     if (!found) return found;
     found.change = describeChange(drives, its, nominalOf(options), options);
     found.curves = strutCurves(drives, found.model(), its.sample_period);
+    found.travel = travelStatistics(drives, found.model(), its.sample_period);
     return found;
   };
   return judgeArrays(search, recordings, options, searching, work);

@@ -8,6 +8,7 @@
 
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/compare/travel_statistics.h"
 #include "suspension_health_monitor/internal/math/digest.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/health_log.h"
@@ -54,7 +55,8 @@ struct Identification : IdentifyResult {
 
 struct SearchedStrut : Diagnosis {
   std::string change;  ///< likewise
-  StrutCurves curves;
+  StrutCurves curves{};
+  TravelStatistics travel{};
 };
 
 /// With the estimates at the end.

@@ -1,7 +1,6 @@
 #include "curve_output.h"
 
 #include <algorithm>
-#include <boost/hana/adapt_struct.hpp>
 #include <cmath>
 #include <cstdio>
 
@@ -12,11 +11,6 @@
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/drive_sentences.h"
-
-BOOST_HANA_ADAPT_STRUCT(shm::TimeHistogram::Direction, share, mean, largest);
-BOOST_HANA_ADAPT_STRUCT(shm::TimeHistogram, edges, shares, compression, rebound);
-BOOST_HANA_ADAPT_STRUCT(shm::StopUse, effect, gap, near, hits);
-BOOST_HANA_ADAPT_STRUCT(shm::TravelStatistics, travel, travel_rate, stops);
 
 namespace suspension_health_monitor {
 namespace {

@@ -5,6 +5,7 @@
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
+#include "suspension_health_monitor/internal/compare/travel_statistics.h"
 #include "suspension_health_monitor/internal/wording/health_log.h"
 #include "suspension_health_monitor/monitor_report.h"
 
@@ -41,6 +42,11 @@ BOOST_HANA_ADAPT_STRUCT(shm::RankedModel, effects, model, fitted, held_out_rmse,
                         significant);
 BOOST_HANA_ADAPT_STRUCT(shm::Diagnosis, verdict, noise_floor, structured_share, surface_share, suggested_drive,
                         selected, indistinguishable);
+
+BOOST_HANA_ADAPT_STRUCT(shm::TimeHistogram::Direction, share, mean, largest);
+BOOST_HANA_ADAPT_STRUCT(shm::TimeHistogram, edges, shares, compression, rebound);
+BOOST_HANA_ADAPT_STRUCT(shm::StopUse, effect, gap, near, hits);
+BOOST_HANA_ADAPT_STRUCT(shm::TravelStatistics, travel, travel_rate, stops);
 
 BOOST_HANA_ADAPT_STRUCT(shm::ResidualBin, from, to, mean, standard_error, rms, count);
 BOOST_HANA_ADAPT_STRUCT(shm::TimeBin, from, to, mean, standard_error, rms, count, drive, damping_error,
