@@ -270,7 +270,7 @@ struct Damages {
 };
 
 /// A healthy drive makes the baseline; the next one has one damper or spring weaker by 15 to 60 %, another load, speed
-/// and road, which nobody is told.
+/// and road; the comparison knows none of these.
 void printDamage(const char* kind, unsigned seed, const Setup& how) {
   static Damages all;
   Driven driven = prepared(kind, seed, how);

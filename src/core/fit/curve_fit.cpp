@@ -17,15 +17,15 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kFirstNodes = 8;               // per side: half an rms apart, as the extremes of a drive are some four
-constexpr int kRefinements = 4;              // to a sixteenth of that: a thirtieth of the rms
-constexpr std::size_t kMostNodes = 50;       // of a law: it does not bend everywhere
-constexpr double kTolerated = 0.5;           // misfit over standard deviation: adds an eighth of the variance
-constexpr double kSteepest = 10.0;           // change of slope, over the slope, that is not unusual (an end stop)
-constexpr int kMostSteps = 8;                // some three per refinement
-constexpr int kMostHalvings = 6;             // of a step after which the model runs away
-constexpr double kTransient = 1e-3;          // what is left of a wrong initial state where samples begin to count
-constexpr double kPeriodsOfCluster = 2.0;    // noise that a strut passes is forgotten after a natural period
+constexpr int kFirstNodes = 8;             // per side: half an rms apart, as the extremes of a drive are some four
+constexpr int kRefinements = 4;            // to a sixteenth of that: a thirtieth of the rms
+constexpr std::size_t kMostNodes = 50;     // of a law: it does not bend everywhere
+constexpr double kTolerated = 0.5;         // misfit over standard deviation: adds an eighth of the variance
+constexpr double kSteepest = 10.0;         // change of slope, over the slope, that is not unusual (an end stop)
+constexpr int kMostSteps = 8;              // some three per refinement
+constexpr int kMostHalvings = 6;           // of a step after which the model runs away
+constexpr double kTransient = 1e-3;        // share of a wrong initial state that the first sample that counts still has
+constexpr double kPeriodsOfCluster = 2.0;  // noise that a strut passes is forgotten after a natural period
 constexpr Eigen::Index kRowsPerColumn = 20;  // fewest samples
 
 enum Which : std::size_t { kDamper, kSpring };

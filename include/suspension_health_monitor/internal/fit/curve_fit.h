@@ -1,7 +1,7 @@
 #pragma once
 
-#include "suspension_health_monitor/internal/record/drive_record.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/record/drive_record.h"
 
 namespace suspension_health_monitor {
 

@@ -16,8 +16,8 @@ namespace suspension_health_monitor {
 /// time has to be without hands. Those with much more motion than noise are fitted together.
 /// Assumes: white noise; one strut, whose body does not turn; no friction (no window is free then).
 /// @param drives  without meaning of gravity: a constant in either reading does not count.
-/// @return b1, b0 with standard deviations and correlation, the rest as of an estimate of which nothing is known;
-/// kNotExcited if they are not known to kMostRelativeStddev.
+/// @return b1, b0, their standard deviations and correlation; all other fields keep their defaults. kNotExcited if b1
+/// or b0 is not known to kMostRelativeStddev.
 StrutEstimate estimateFromFreeDecays(const std::vector<Drive>& drives);
 
 }  // namespace suspension_health_monitor
