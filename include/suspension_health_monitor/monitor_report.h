@@ -83,9 +83,10 @@ struct StrutEstimate {
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
   double explained = 0.0;               ///< LS, LA: 1 - mean |epsilon| / mean |psi|; blocks: share of the body's power
   double tails = 0.0;  ///< mean square of the residuals of LS, LA over their squared mean size [-]: 1.57 if normal
-  double age = std::nan("");                     ///< of what the block estimate rests on [s], on average
-  double window = std::nan("");                  ///< span of its blocks [s]
-  std::optional<double> temperature;             ///< of the damper [deg C]; empty: it has no thermometer
+  double age = std::nan("");          ///< of what the block estimate rests on [s], on average
+  double window = std::nan("");       ///< span of its blocks [s]
+  double roughest = 1.0;              ///< information of the best quarter of that span over the mean of four [-]
+  std::optional<double> temperature;  ///< of the damper [deg C]; empty: it has no thermometer
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
 
   bool valid() const { return doubt == EstimateDoubt::kNone; }
@@ -229,6 +230,7 @@ struct HealthReport {
   HealthLevel stiffness_level = HealthLevel::kOk;
   double known_to = std::nan("");      ///< StrutEstimate::knownTo() of the newest estimate; NaN: there is none
   double seconds_more = std::nan("");  ///< secondsUntil(enough) [s]
+  double roughest = 1.0;               ///< StrutEstimate::roughest
   double enough = std::nan("");        ///< HealthThresholds::enough() [-]
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why the estimate of the blocks is not valid
   bool uncertain = false;       ///< valid, but a change as large as the error threshold would not be significant

@@ -73,6 +73,7 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
   result.estimate = withAbsoluteStddev(over_the_drive);
   result.now = withAbsoluteStddev(monitor.report().estimate);
   result.estimate.age = result.now.age;
+  result.estimate.roughest = result.now.roughest;
   result.samples = monitor.input().samples;
   result.rows = monitor.input().rows;
   result.gaps = monitor.input().gaps;

@@ -287,9 +287,15 @@ TEST(StrutEstimate, SaysHowMuchLongerToDrive) {
   EXPECT_NEAR(known.secondsUntil(1.96 * 0.025), 30.0, 1e-9) << "half the deviation takes four times the drive";
   EXPECT_EQ(known.secondsUntil(0.1), 0.0);
   known.doubt = EstimateDoubt::kDampingNotExcited;
-  EXPECT_EQ(describeDoubt(known, 1.96 * 0.025),
-            "too little motion to know damping: drive on, or use a rougher road; damping and stiffness are known to 10 %, "
-            "about 30 s more on this road to 5 %");
+  EXPECT_EQ(
+      describeDoubt(known, 1.96 * 0.025),
+      "too little motion to know damping: drive on, or use a rougher road; damping and stiffness are known to 10 %, "
+      "about 30 s more on this road to 5 %");
+  known.roughest = 3.0;
+  EXPECT_EQ(
+      describeDoubt(known, 1.96 * 0.025),
+      "too little motion to know damping: drive on, or use a rougher road; damping and stiffness are known to 10 %, "
+      "about 30 s more on this road to 5 % (10 s if all of it is as rough as the roughest quarter so far)");
   known.doubt = EstimateDoubt::kOldData;
   EXPECT_EQ(describeDoubt(known, 0.05), describe(EstimateDoubt::kOldData));
   EXPECT_TRUE(std::isnan(StrutEstimate().knownTo()));

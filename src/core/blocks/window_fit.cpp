@@ -177,7 +177,8 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
   double body = 0.0, unexplained = 0.0, wheel = 0.0, rate = 0.0, travel = 0.0;
-  Eigen::Vector2d age = Eigen::Vector2d::Zero(), information = age;
+  Eigen::Vector2d age = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 4> of_quarter = Eigen::Matrix<double, 2, 4>::Zero();
   for (const Sum& each : sums_) unexplained += residualPower(each.moments, result.theta);
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
@@ -189,14 +190,17 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
       travel += weight * band.travel_power;
       wheel += weight * band.moving_power;
       const Eigen::Vector2d own = weight / weights_.noise[i] * band.information.diagonal().head<2>();
-      information += own;
+      of_quarter.col(4 * b / blocks_) += own;
       age += own * (blocks.back()->end - block.end);
     }
   }
+  const Eigen::Vector2d information = of_quarter.rowwise().sum();
   result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
   result.amplified = body / wheel;
   result.setMotion(rate / sum_of_weights_, travel / sum_of_weights_, length_);
   result.age = (age.array() / information.array()).maxCoeff();
+  const int i = result.relativeStddev(kBlockDamping) > result.relativeStddev(kBlockStiffness) ? 0 : 1;
+  result.roughest = 4.0 * of_quarter.row(i).maxCoeff() / information[i];
 }
 
 void WindowFit::widenByAlike(const BlockMatrix& inverse, WindowEstimate& result) {

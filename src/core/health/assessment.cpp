@@ -109,6 +109,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   now.known_to = estimate.knownTo();
   now.enough = options_.enough();
   now.seconds_more = estimate.secondsUntil(now.enough);
+  now.roughest = estimate.roughest;
   if (learner_) {
     now.learning = learner_->progress();
     now.learning_restarted = learner_->restarts() > 0;

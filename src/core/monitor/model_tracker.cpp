@@ -65,6 +65,7 @@ void write(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& es
   estimate.effective_rows = blocks.blocks;
   estimate.explained = blocks.explained;
   estimate.window = (blocks.blocks + 1) * blocks.length / 2.0;
+  estimate.roughest = blocks.roughest;
 }
 
 }  // namespace

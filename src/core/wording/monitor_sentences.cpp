@@ -100,12 +100,19 @@ std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptio
 
 namespace {
 
-std::string describeKnown(double known_to, double enough, double seconds) {
+// @param roughest  how much quicker the roughest quarter of the last drive is than this road, on average.
+std::string describeKnown(double known_to, double enough, double seconds, double roughest) {
   if (!std::isfinite(known_to)) return {};
   const std::string known = "; damping and stiffness are known to " + sizeInPercent(known_to);
   if (!(seconds > 0.0)) return known;
   if (!(seconds < kDay)) return known + ", this road cannot tell them";
-  return known + formatted(", about %.0f s more on this road to ", std::fmax(1.0, seconds)) + sizeInPercent(enough);
+  // The time itself is known to a factor of 1.5, so less than that is not worth a word.
+  const std::string quicker = roughest > 1.5
+                                  ? formatted(" (%.0f s if all of it is as rough as the roughest quarter so far)",
+                                              std::fmax(1.0, seconds / roughest))
+                                  : "";
+  return known + formatted(", about %.0f s more on this road to ", std::fmax(1.0, seconds)) + sizeInPercent(enough) +
+         quicker;
 }
 
 std::string describeDoubt(EstimateDoubt doubt, const std::string& known) {
@@ -164,7 +171,7 @@ std::string describe(LoadDoubt doubt) {
 }
 
 std::string describeJudgement(const HealthReport& report) {
-  const std::string known = describeKnown(report.known_to, report.enough, report.seconds_more);
+  const std::string known = describeKnown(report.known_to, report.enough, report.seconds_more, report.roughest);
   if (report.level == HealthLevel::kStale && report.uncertain && report.load_doubt != LoadDoubt::kNone)
     return describe(report.load_doubt);
   if (report.level == HealthLevel::kStale && report.uncertain && report.friction_doubt)
@@ -209,7 +216,8 @@ std::string describeLoad(const CornerComparisonReport& report) {
 }  // namespace
 
 std::string describeDoubt(const StrutEstimate& estimate, double enough) {
-  return describeDoubt(estimate.doubt, describeKnown(estimate.knownTo(), enough, estimate.secondsUntil(enough)));
+  return describeDoubt(estimate.doubt,
+                       describeKnown(estimate.knownTo(), enough, estimate.secondsUntil(enough), estimate.roughest));
 }
 
 const char* nameOf(HealthLevel level) {

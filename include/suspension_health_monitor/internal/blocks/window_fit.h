@@ -37,6 +37,7 @@ struct WindowEstimate {
   double amplified = 0.0;  ///< power of the body's motion over that of the wheel's
   double rate = 0.0;       ///< rms of the travel rate [m/s]
   double travel = 0.0;     ///< rms of the travel [m]
+  double roughest = 1.0;   ///< information of the best quarter of the window, of four in turn, over the mean one's
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   BandVector noise;        ///< power of e per bin of each band: the unexplained spectrum
 
