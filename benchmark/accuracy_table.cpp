@@ -1,6 +1,6 @@
 // Prints tables, which doc/uncertainty.md quotes, on vehicles that nobody had in mind, and on clocks that differ: how
 // far the block estimate and LA are off, and how often their intervals hold the truth.
-//   accuracy_table offset|skew [MEMORY]     memory in seconds
+//   tables accuracy offset|skew [MEMORY]     memory in seconds
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +12,7 @@
 
 #include "field_monitor.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -107,18 +108,18 @@ void printSkew(std::optional<double> memory) {
              memory);
 }
 
-}  // namespace
-}  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  using namespace suspension_health_monitor;
-  const std::string what = argc > 1 ? argv[1] : "";
-  const auto memory = argc > 2 ? std::make_optional(std::atof(argv[2])) : std::nullopt;
-  if (what == "offset")
+int command(const Arguments& arguments) {
+  const auto memory = arguments.size() > 1 ? std::make_optional(arguments.number(1, 0.0)) : std::nullopt;
+  if (arguments.word(0) == "offset")
     printOffset(memory);
-  else if (what == "skew")
+  else if (arguments.word(0) == "skew")
     printSkew(memory);
   else
-    return std::fprintf(stderr, "usage: accuracy_table offset|skew [MEMORY]\n"), 2;
+    return 2;
   return 0;
 }
+
+const AddTable kAdded("accuracy", {"offset|skew [MEMORY]", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,6 +1,6 @@
 // Prints the table of curves of doc/comparison.md: how much of the true laws of damper and spring the bands of 90 %
 // hold, how wide they are at half of the rms motion, and how far the curves reach.
-//   curve_table [SEEDS] [SHARE of the linear force's rms that the hidden force has]
+//   tables curve [SEEDS] [SHARE of the linear force's rms that the hidden force has]
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +12,7 @@
 #include "suspension_health_monitor/internal/fit/curve_fit.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -100,10 +101,9 @@ void printTable(int seeds, double share) {
   }
 }
 
+int command(const Arguments& arguments) { return printTable(arguments.count(0, 20), arguments.number(1, 0.15)), 0; }
+
+const AddTable kAdded("curve", {"[SEEDS [SHARE]]", command});
+
 }  // namespace
 }  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  suspension_health_monitor::printTable(argc > 1 ? std::atoi(argv[1]) : 20, argc > 2 ? std::atof(argv[2]) : 0.15);
-  return 0;
-}

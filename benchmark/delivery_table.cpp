@@ -1,7 +1,7 @@
 // Prints a table of doc/alignment.md: what is said of healthy struts whose IMUs read regularly, but whose messages get
 // lost or are stamped when they happen to arrive. Drives of benchmark/field_drive.h, default settings with nominal
 // values.
-//   delivery_table [SECONDS]      of each drive, default 600
+//   tables delivery [SECONDS]      of each drive, default 600
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +14,7 @@
 #include "field_drive.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/strut_monitor.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -127,7 +128,9 @@ void printTable(double seconds) {
     }
 }
 
+int command(const Arguments& arguments) { return printTable(arguments.number(0, 600.0)), 0; }
+
+const AddTable kAdded("delivery", {"[SECONDS]", command});
+
 }  // namespace
 }  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) { suspension_health_monitor::printTable(argc > 1 ? std::atof(argv[1]) : 600.0); }

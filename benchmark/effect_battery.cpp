@@ -1,5 +1,5 @@
 // Prints the tables of doc/effect_search.md: how often the search names what is hidden in simulated drives.
-//   effect_battery [SEEDS [FIRST_SEED [KIND [VEHICLE [EFFECT]]]]]
+//   tables effect_battery [SEEDS [FIRST_SEED [KIND [VEHICLE [EFFECT]]]]]
 // KIND: single, none, two, elsewhere, undersampled or all; EFFECT: what is hidden in single drives
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +11,7 @@
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -164,15 +165,10 @@ Tally runKind(const std::string& kind, const BatteryVehicle& vehicle, int seed, 
   return tally;
 }
 
-}  // namespace
-}  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  using namespace suspension_health_monitor;
-  const int seeds = argc > 1 ? std::atoi(argv[1]) : 1;
-  const int first = argc > 2 ? std::atoi(argv[2]) : 1;
-  const std::string wanted = argc > 3 ? argv[3] : "all";
-  const std::string vehicle_part = argc > 4 ? argv[4] : "", effect_part = argc > 5 ? argv[5] : "";
+int command(const Arguments& arguments) {
+  const int seeds = arguments.count(0, 1), first = arguments.count(1, 1);
+  const std::string wanted = arguments.word(2, "all"), vehicle_part = arguments.word(3),
+                    effect_part = arguments.word(4);
   for (const char* kind : {"single", "none", "two", "elsewhere", "undersampled"}) {
     if (wanted != "all" && wanted != kind) continue;
     Tally tally;
@@ -189,3 +185,8 @@ int main(int argc, char** argv) {
   }
   return 0;
 }
+
+const AddTable kAdded("effect_battery", {"[SEEDS [FIRST_SEED [KIND [VEHICLE [EFFECT]]]]]", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,6 +1,6 @@
 // Prints what the monitor says of drives of many kinds (drive_families.h), whose readings arrive as two streams on
 // their own stamps; default settings.
-//   family_table [families|steps|friction|time|all [SEED]]      another SEED: other roads and noise, everything else
+//   tables family [families|steps|friction|time|all [SEED]]      another SEED: other roads and noise, everything else
 //   alike
 //
 // families: healthy struts with nominal values, per kind of drive. Judged: time at another level than STALE, from 20 s
@@ -22,6 +22,7 @@
 
 #include "drive_families.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -277,17 +278,11 @@ void printTime(unsigned seed) {
   std::printf("| all | %.0f | %.0f | |\n", all.looks, all.percent());
 }
 
-}  // namespace
-}  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  using namespace suspension_health_monitor;
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // rows as they come
-  const std::string what = argc > 1 ? argv[1] : "all";
-  const unsigned seed = 1 + 1000 * (argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 0);
+int command(const Arguments& arguments) {
+  const std::string what = arguments.word(0, "all");
+  const unsigned seed = 1 + 1000 * arguments.seed(1, 0);
   const bool all = what == "all";
-  if (!all && what != "families" && what != "steps" && what != "friction" && what != "time")
-    return std::fprintf(stderr, "usage: family_table [families|steps|friction|time|all [SEED]]\n"), 2;
+  if (!all && what != "families" && what != "steps" && what != "friction" && what != "time") return 2;
   if (all || what == "families") printFamilies(seed);
   if (all || what == "steps") printChanges("step", stepDrives(seed + 100));
   if (all || what == "steps") printChanges("ramp", rampDrives(seed + 200));
@@ -295,3 +290,8 @@ int main(int argc, char** argv) {
   if (all || what == "time") printTime(seed);
   return 0;
 }
+
+const AddTable kAdded("family", {"[families|steps|friction|time|all [SEED]]", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,10 +1,9 @@
 // Prints the tables that doc/robustness.md quotes: what is said of a strut as it is met there.
-//   field_table healthy|unfiltered|steps [MEMORY [HOURS]]     memory in seconds; hours of a drive, default 10;
+//   tables field healthy|unfiltered|steps [MEMORY [HOURS]]     memory in seconds; hours of a drive, default 10;
 //   unfiltered: healthy without an anti-alias filter
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <future>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "field_monitor.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -183,19 +183,19 @@ void printSteps(std::optional<double> memory) {
     }
 }
 
-}  // namespace
-}  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  using namespace suspension_health_monitor;
-  const std::string what = argc > 1 ? argv[1] : "";
-  const auto memory = argc > 2 ? std::make_optional(std::atof(argv[2])) : std::nullopt;
-  const double hours = argc > 3 ? std::atof(argv[3]) : 10.0;
+int command(const Arguments& arguments) {
+  const std::string what = arguments.word(0);
+  const auto memory = arguments.size() > 1 ? std::make_optional(arguments.number(1, 0.0)) : std::nullopt;
   if (what == "healthy" || what == "unfiltered")
-    printHealthy(memory, hours, what == "healthy");
+    printHealthy(memory, arguments.number(2, 10.0), what == "healthy");
   else if (what == "steps")
     printSteps(memory);
   else
-    return std::fprintf(stderr, "usage: field_table healthy|unfiltered|steps [MEMORY [HOURS]]\n"), 2;
+    return 2;
   return 0;
 }
+
+const AddTable kAdded("field", {"healthy|unfiltered|steps [MEMORY [HOURS]]", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -8,6 +8,7 @@
 
 #include "../test/core/simulated_drive.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -146,7 +147,9 @@ void printTable() {
   for (const std::string& row : of_la) std::printf("%s\n", row.c_str());
 }
 
+int command(const Arguments&) { return printTable(), 0; }
+
+const AddTable kAdded("forgetting", {"", command});
+
 }  // namespace
 }  // namespace suspension_health_monitor
-
-int main() { suspension_health_monitor::printTable(); }

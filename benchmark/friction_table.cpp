@@ -1,17 +1,17 @@
 // Prints the table of dampers that are not linear of doc/health.md: a baseline that is learned on one road, then the
 // same strut, or one that has lost 40 % of its damping, on another.
-//   friction_table [SEED]
+//   tables friction [SEED]
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "field_monitor.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -114,10 +114,9 @@ void printTable(unsigned seed) {
       for (const double left : {1.0, 0.6}) printRow(damper, way, left, judge(damper, way, left, seed));
 }
 
+int command(const Arguments& arguments) { return printTable(arguments.seed(0)), 0; }
+
+const AddTable kAdded("friction", {"[SEED]", command});
+
 }  // namespace
 }  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  suspension_health_monitor::printTable(argc > 1 ? static_cast<unsigned>(std::atoi(argv[1])) : 1);
-  return 0;
-}

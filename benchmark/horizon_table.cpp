@@ -10,6 +10,7 @@
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -111,12 +112,15 @@ void printRow(const Drive& drive) {
               100.0 * (at_proposal.la / least.la - 1.0));
 }
 
-}  // namespace
-}  // namespace suspension_health_monitor
-
-int main() {
+int command(const Arguments&) {
   std::printf(
       "| drive | damping ratio | proposed h [s] (h sqrt(b0)) | best for LS | best for LA | rms error LS | rms error LA "
       "| LS above best | LA above best |\n|---|---|---|---|---|---|---|---|---|\n");
-  for (const auto& drive : suspension_health_monitor::kDrives) suspension_health_monitor::printRow(drive);
+  for (const auto& drive : kDrives) printRow(drive);
+  return 0;
 }
+
+const AddTable kAdded("horizon", {"", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,5 +1,6 @@
 // Memory and estimates after a day: four corners at 1 kHz, in one process, as fast as it goes.
-//   long_run [HOURS]     default 24; ends with 1 if resident memory grows after the first 24th by more than 1 %, or if
+//   tables long_run [HOURS]     default 24; ends with 1 if resident memory grows after the first 24th by more than 1 %,
+//   or if
 //                        an estimate is wrong at the end
 #include <chrono>
 #include <cmath>
@@ -11,8 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "../test/core/uniform_grid.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -95,7 +97,9 @@ int run(double hours) {
   return right ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
+int command(const Arguments& arguments) { return run(arguments.number(0, 24.0)); }
+
+const AddTable kAdded("long_run", {"[HOURS]", command});
+
 }  // namespace
 }  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) { return suspension_health_monitor::run(argc > 1 ? std::atof(argv[1]) : 24.0); }

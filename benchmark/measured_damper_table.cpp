@@ -1,5 +1,5 @@
 // Prints the table of doc/measured_records.md: what the search says of a real damper on a sine rig.
-//   measured_damper_table FOLDER     of runN.csv, or runN.csv.gz, as scripts/convert_measured_damper writes them
+//   tables measured_damper FOLDER     of runN.csv, or runN.csv.gz, as scripts/convert_measured_damper writes them
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -85,14 +86,11 @@ void print(const std::string& label, const Diagnosis& found) {
               found.extended ? found.extended->held_out_rmse : found.base.held_out_rmse);
 }
 
-}  // namespace
-}  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  using namespace suspension_health_monitor;
-  const std::vector<Run> runs = argc > 1 ? readRuns(argv[1]) : std::vector<Run>();
+int command(const Arguments& arguments) {
+  const std::vector<Run> runs = arguments.size() > 0 ? readRuns(arguments.word(0)) : std::vector<Run>();
   if (runs.empty()) {
-    std::printf("skipped: no runs of the measured damper in %s\n", argc > 1 ? argv[1] : "a folder: none is given");
+    std::printf("skipped: no runs of the measured damper in %s\n",
+                arguments.word(0, "a folder: none is given").c_str());
     return 0;
   }
   std::printf(
@@ -118,3 +116,8 @@ int main(int argc, char** argv) {
   }
   return 0;
 }
+
+const AddTable kAdded("measured_damper", {"FOLDER", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -7,6 +7,7 @@
 #include "../test/core/braked_road.h"
 #include "../test/core/paper_drive.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -90,7 +91,9 @@ void printParkedTable() {
   printParked("default", &ModelReport::estimate, 3.0, 0.1, 0.1);
 }
 
+int command(const Arguments&) { return printParkedTable(), 0; }
+
+const AddTable kAdded("parked", {"", command});
+
 }  // namespace
 }  // namespace suspension_health_monitor
-
-int main() { suspension_health_monitor::printParkedTable(); }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "../test/core/estimation_error.h"
+#include "tables.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -76,7 +77,9 @@ void printTable() {
   }
 }
 
+int command(const Arguments&) { return printTable(), 0; }
+
+const AddTable kAdded("small_divisor", {"", command});
+
 }  // namespace
 }  // namespace suspension_health_monitor
-
-int main() { suspension_health_monitor::printTable(); }

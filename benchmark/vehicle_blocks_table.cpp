@@ -1,9 +1,9 @@
 // What the block estimates of a vehicle's struts are worth: linear half and full cars and six wheels of
 // vehicle_drive.h, with own accelerometers at the tops or one body IMU; and records of others, as CSV.
-//   vehicle_blocks_table [seeds]            the linear vehicles
+//   tables vehicle_blocks [seeds]            the linear vehicles
 // `seen`: seconds until the worn strut is seen, how many others are, too, and by how much any other moves beyond its
 // interval.
-//   vehicle_blocks_table FILE.csv ... [-b]  records; -b: by their body IMU
+//   tables vehicle_blocks FILE.csv ... [-b]  records; -b: by their body IMU
 // A record begins with a line "# NAME x y z b1 b0" for every strut, its top's position from the body's IMU [m] and the
 // truth; then lines of time [s], the body's acceleration (3) and angular rate (3), and by strut the vertical
 // acceleration of the tops, then of the wheels. A strut "wears" at 205 s in such a record (column `seen`), if it is
@@ -21,6 +21,7 @@
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_blocks.h"
+#include "tables.h"
 #include "vehicle_drive.h"
 
 namespace suspension_health_monitor {
@@ -323,16 +324,11 @@ void linearTables(unsigned seeds) {
   all("identical tracks", other, 0.0);
 }
 
-}  // namespace
-}  // namespace suspension_health_monitor
-
-int main(int argc, char** argv) {
-  using namespace suspension_health_monitor;
+int command(const Arguments& arguments) {
   std::vector<std::string> files;
   bool by_body = false;
   unsigned seeds = 3;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
+  for (const std::string& argument : arguments.words) {
     if (argument == "-b")
       by_body = true;
     else if (argument.find('.') != std::string::npos)
@@ -351,3 +347,8 @@ int main(int argc, char** argv) {
   }
   return 0;
 }
+
+const AddTable kAdded("vehicle_blocks", {"[SEEDS | FILE.csv... [-b]]", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

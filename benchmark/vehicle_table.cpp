@@ -15,15 +15,12 @@
 #include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
+#include "tables.h"
 #include "vehicle_case.h"
 
 namespace {
 
 using namespace suspension_health_monitor;
-
-constexpr char kUsage[] =
-    "vehicle_table linear|coupling|effect|two|bar|force|alone|health|damage "
-    "[SEEDS [FIRST [own|body [RATE [SECONDS]]]]]\n";
 
 constexpr std::array kKinds{"half", "sedan", "robot", "truck"};
 
@@ -341,25 +338,27 @@ constexpr std::array kTables{
     Table{"health", "kind  seed  known s   ERROR s    WARN s  others OK  alarms  inside", printHealth},
     Table{"damage", "kind  seed  hidden        size %  found  | so far", printDamage}};
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const auto table = std::find_if(kTables.begin(), kTables.end(),
-                                  [&](const Table& each) { return argc > 1 && std::string(argv[1]) == each.name; });
-  if (table == kTables.end()) {
-    std::fputs(kUsage, stderr);
-    return 2;
-  }
-  const auto seeds = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 2);
-  const auto first = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
+int command(const Arguments& arguments) {
+  const auto table =
+      std::find_if(kTables.begin(), kTables.end(), [&](const Table& each) { return arguments.word(0) == each.name; });
+  if (table == kTables.end()) return 2;
+  const unsigned seeds = arguments.seed(1, 2), first = arguments.seed(2);
   Setup how;
-  how.has_body_imu = argc > 4 && std::string(argv[4]) == "body";
-  if (argc > 5) how.rate = std::atof(argv[5]);
-  if (argc > 6) how.seconds = std::atof(argv[6]);
+  how.has_body_imu = arguments.word(3) == "body";
+  how.rate = arguments.number(4, how.rate);
+  how.seconds = arguments.number(5, how.seconds);
   std::printf("%s\n", table->heading);
   for (const char* kind : kKinds)
     for (unsigned seed = first; seed < first + seeds; ++seed) {
       table->print(kind, seed, how);
       std::fflush(stdout);
     }
+  return 0;
 }
+
+const AddTable kAdded(
+    "vehicle",
+    {"linear|coupling|effect|two|bar|force|alone|health|damage [SEEDS [FIRST [own|body [RATE [SECONDS]]]]]", command});
+
+}  // namespace
+}  // namespace suspension_health_monitor

@@ -1,4 +1,4 @@
-// What the judgement of health promises of simulated drives. The long tables are those of benchmark/health_table.cpp.
+// What the judgement of health promises of simulated drives.
 #include <gtest/gtest.h>
 
 #include <cmath>
