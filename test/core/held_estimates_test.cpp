@@ -92,7 +92,7 @@ TEST(HeldEstimate, OfAParkedVehicleIsNotChangedByADayAndTheNextDriveIsRightAtOnc
   EXPECT_TRUE(strut.la().valid());
 }
 
-// In 5.5 hours at rest there are 20 000 blocks in which noise may look like a road by chance.
+// In 2.2 hours at rest there are 8000 blocks in which noise may look like a road by chance.
 TEST(HeldEstimate, HoursAfterAStopOnThePapersRoadItIsWhatItWas) {
   for (const double brake : {0.3, 3.0}) {
     DrivenStrut strut(liveOptions());
@@ -101,7 +101,7 @@ TEST(HeldEstimate, HoursAfterAStopOnThePapersRoadItIsWhatItWas) {
     const StrutEstimate stop = strut.la();
     ASSERT_TRUE(stop.valid()) << brake;
     strut.drive(500, road);
-    strut.park(1000000);
+    strut.park(400000);
     EXPECT_EQ(strut.estimate().doubt, EstimateDoubt::kOldData) << brake;
     expectWithinStddevs(strut.estimate());
     const StrutEstimate& la = strut.la();
