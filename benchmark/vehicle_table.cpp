@@ -361,4 +361,3 @@ const AddTable kAdded(
     {"linear|coupling|effect|two|bar|force|alone|health|damage [SEEDS [FIRST [own|body [RATE [SECONDS]]]]]", command});
 
 }  // namespace
-}  // namespace suspension_health_monitor

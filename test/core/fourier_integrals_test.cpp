@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "block_drive.h"
@@ -20,7 +22,7 @@ std::vector<double> evenStamps(double spacing, double end) {
 
 std::vector<double> unevenStamps(double spacing, double end, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> jitter(0.3, 1.7);
+  std::uniform_real_distribution<double> jitter(0.7, 1.3);  // of a mean of 32: nothing looks lost
   std::vector<double> stamps;
   for (double t = 0.0; t < end; t += spacing * jitter(random)) stamps.push_back(t);
   return stamps;
@@ -95,6 +97,61 @@ TEST(FourierIntegrals, OnUnevenStampsDifferFromTheClosedFormByNoMoreThanTheTrape
     const Complex expected = sine.integral(1.0, 2.0, omega);
     EXPECT_LT(std::abs(wholeBlock(kBand, stream, 2)[i] - expected), curvature * cubes / 12.0);
   }
+}
+
+// The weights of t +- h, t +- 2 h at t are 4/6 and -1/6: of a sine of w the cubic misses 1 - (4 cos wh - cos 2wh) / 3.
+TEST(FourierIntegrals, ALostReadingIsPutInByTheCubicThroughItsNeighbours) {
+  Exponentials sine;
+  sine.addSine(1.5, 7.3, 0.4);
+  const std::vector<double> all = evenStamps(0.01, 4.2);
+  for (const std::size_t lost : {133u, 200u, 201u}) {  // 2 s is an end of a half block
+    std::vector<double> lossy = all;
+    lossy.erase(lossy.begin() + static_cast<std::ptrdiff_t>(lost));
+    const double turn = 2.0 * M_PI * 7.3 * 0.01;
+    const double missed = (1.0 - (4.0 * std::cos(turn) - std::cos(2.0 * turn)) / 3.0) * sine.at(all[lost]);
+    const long half = lost < 200 ? 1 : 2;  // the newer one of a block that it lies within
+    const Eigen::ArrayXcd error =
+        wholeBlock(kBand, integrate(lossy, sine), half) - wholeBlock(kBand, integrate(all, sine), half);
+    for (int i = 0; i < kBand.spectrumSize(); ++i) {
+      const double phase = kBand.omega(kBand.first - 1 + i) * (all[lost] - static_cast<double>(half - 1));
+      EXPECT_NEAR(std::abs(error[i] + 0.01 * missed * std::polar(1.0, -phase)), 0.0, 1e-12) << lost << ", bin " << i;
+    }
+  }
+}
+
+TEST(FourierIntegrals, ThreeLostReadingsArePutInAndFourAreTheStraightLine) {
+  const std::vector<double> all = evenStamps(0.01, 4.2);
+  const auto cubic = [](double t) { return std::pow(t - 1.3, 3) - 2.0 * t; };
+  const auto onlyAt132 = [&](double t) { return t == all[132] ? 1.0 : 0.0; };
+  const auto block = [&](int lost, const std::function<double(double)>& signal) {
+    FourierIntegrals stream(kBand, 1);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double value = signal(all[i]);
+      if (i < 133 || i >= 133 + static_cast<std::size_t>(lost)) stream.push(all[i], &value);
+    }
+    return wholeBlock(kBand, stream, 2);
+  };
+  EXPECT_LT((block(3, cubic) - block(0, cubic)).abs().maxCoeff(), 1e-13);
+  EXPECT_NEAR(std::abs(block(4, onlyAt132)[0]), (0.01 + 0.05) / 2.0, 1e-12);
+}
+
+// Two readings 1 ms apart among others of 10 ms: their slope is noise.
+TEST(FourierIntegrals, NothingIsPutInBesideReadingsThatAreMuchCloser) {
+  std::vector<double> stamps = evenStamps(0.01, 4.2);
+  stamps.erase(stamps.begin() + 133);
+  stamps.insert(stamps.begin() + 133, stamps[133] + 0.001);
+  std::sort(stamps.begin(), stamps.end());
+  const auto push = [&](double noise) {
+    FourierIntegrals stream(kBand, 1);
+    for (std::size_t i = 0; i < stamps.size(); ++i) {
+      const double value = i == 133 ? noise : 0.0;
+      stream.push(stamps[i], &value);
+    }
+    return stream;
+  };
+  // By the trapezoid rule the reading at 1.34 s counts for (20 + 1) ms / 2.
+  const double counts = (wholeBlock(kBand, push(1.0), 2) - wholeBlock(kBand, push(0.0), 2)).abs()[0];
+  EXPECT_NEAR(counts, 0.0105, 1e-9);
 }
 
 TEST(FourierIntegrals, AreNotChangedByAConstantHoweverUnevenTheStamps) {

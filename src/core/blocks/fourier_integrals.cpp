@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 
@@ -9,6 +10,17 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kLanes = 8;  // bins that are turned at once
+constexpr int kMostLost = 3;
+constexpr int kUsualOf = 32;  // spacings that a mean is taken of: the least that a gap is of a block
+
+// Lagrange: weights of the values at four times in that of their polynomial at t.
+std::array<double, 4> lagrange(const std::array<double, 4>& at, double t) {
+  std::array<double, 4> weights{1.0, 1.0, 1.0, 1.0};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      if (i != j) weights[i] *= (t - at[j]) / (at[i] - at[j]);
+  return weights;
+}
 
 }  // namespace
 
@@ -24,10 +36,53 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
   sines_.resize(cosines_.size());
   real_.setZero(lanes, static_cast<Eigen::Index>(channels));
   imaginary_ = real_;
+  for (Reading* each : {&before_, &last_, &held_, &put_}) each->values.resize(channels);
   for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), static_cast<Eigen::Index>(channels));
 }
 
 void FourierIntegrals::push(double time, const double* values) {
+  if (lost_ > 0) bridge(time, values);
+  lost_ = time_ ? lostBefore(time) : 0;
+  if (lost_ > 0) {
+    held_.set(time, values);
+    return;
+  }
+  take(time, values);
+  std::swap(before_, last_);
+  last_.set(time, values);
+}
+
+int FourierIntegrals::lostBefore(double time) {
+  const double spacing = time - last_.time;
+  if (spacing > longest_spacing_) {
+    spacings_ = 0;
+    return 0;
+  }
+  const long lost = spacings_ > 1 ? std::lround(spacing / usual_) - 1 : 0;
+  spacings_ = std::min(spacings_ + 1, kUsualOf);
+  usual_ += (spacing - usual_) / spacings_;
+  return lost <= kMostLost ? static_cast<int>(lost) : 0;
+}
+
+void FourierIntegrals::bridge(double next_time, const double* next) {
+  const std::array<double, 4> at{before_.time, last_.time, held_.time, next_time};
+  const double spacing = (at[2] - at[1]) / (lost_ + 1);
+  // Of two readings that are much closer the cubic would be the noise.
+  const bool is_even = 2.0 * std::min(at[1] - at[0], at[3] - at[2]) > spacing;
+  for (int k = 1; is_even && k <= lost_; ++k) {
+    const double time = at[1] + k * spacing;
+    const std::array<double, 4> weights = lagrange(at, time);
+    for (std::size_t j = 0; j < channels_; ++j)
+      put_.values[j] = weights[0] * before_.values[j] + weights[1] * last_.values[j] + weights[2] * held_.values[j] +
+                       weights[3] * next[j];
+    take(time, put_.values.data());
+  }
+  take(held_.time, held_.values.data());
+  std::swap(before_, last_);
+  std::swap(last_, held_);
+}
+
+void FourierIntegrals::take(double time, const double* values) {
   const long half = static_cast<long>(std::floor(time / half_length_));
   if (!time_) {
     std::copy_n(values, channels_, first_.begin());
@@ -60,6 +115,7 @@ void FourierIntegrals::push(double time, const double* values) {
 
 void FourierIntegrals::restart() {
   time_.reset();
+  lost_ = spacings_ = 0;
   spacing_ = 0.0;
   for (Half& each : halves_) each.index = -1;
   begin(0);

@@ -86,6 +86,29 @@ def friction_direction(t, w, T, b1, b0, f):
 
 # -- Spectra -----------------------------------------------------------------------------------------------------------
 
+def with_lost(t, x, T):
+    """Where a spacing is 2, 3 or 4 usual ones, readings from the cubic through the two on either side are put in. Usual is the
+    mean of the 32 spacings before, as long as there is no gap; two other spacings must have been."""
+    times, values, mean, count = [t[0]], [x[0]], 0.0, 0
+    for i in range(1, t.size):
+        spacing = t[i] - t[i - 1]
+        parts = int(np.floor(spacing / mean + 0.5)) if count > 1 else 1
+        if spacing > T / 32:
+            count, parts = 0, 1
+        else:
+            count = min(count + 1, 32)
+            mean += (spacing - mean) / count
+        if 2 <= parts <= 4 and i + 1 < t.size and 2 * min(t[i - 1] - t[i - 2], t[i + 1] - t[i]) > spacing / parts:
+            u = (t[i - 2:i + 2] - t[i - 1]) / spacing
+            cubic = np.linalg.solve(np.vander(u), x[i - 2:i + 2])
+            for part in np.arange(1, parts) / parts:
+                times.append(t[i - 1] + part * spacing)
+                values.append(np.polyval(cubic, part))
+        times.append(t[i])
+        values.append(x[i])
+    return np.array(times), np.array(values)
+
+
 def integrals(t, x, a, T, omega):
     """U_k: (x - x_0) e^(-j w (t - a)) by straight lines between readings, integrated over [a, a + T]."""
     left, right = t[:-1], t[1:]
@@ -233,11 +256,12 @@ def main():
         s = 1j * omega
         bands = noise_bands(last - FIRST + 1)
         direction = friction_direction(tx, x, T, theta[0], theta[1], theta[5])
+        streams = [with_lost(t, v, T) for t, v in ((tx, x), (tx, direction), (ty, y))]
         blocks = []
         count = int(np.floor(2 * min(ty[-1], tx[-1]) / T)) - 1
         for b in range(count):
             a = b * T / 2
-            U = [integrals(t, v, a, T, omega) for t, v in ((tx, x), (tx, direction), (ty, y))]
+            U = [integrals(t, v, a, T, omega) for t, v in streams]
             blocks.append(Block(*U, a + T, s, theta))
 
         def keep(kind, index, values): reference.append([n, KINDS[kind], index, *np.ravel(values)])

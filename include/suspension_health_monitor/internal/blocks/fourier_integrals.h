@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -15,7 +16,9 @@ namespace suspension_health_monitor {
 /// but that a spacing cut by an end of the half block belongs to either part by the straight line between its readings:
 /// H_2 (Modulation) weights the ends by 2 pi^2 / T^2, so that a half spacing there would be an error of first order.
 /// Two halves make a block: U_k = I_k + (-1)^k I'_k. Where stamps are even the rule is exact up to aliasing within the
-/// block, and H_p up to the second order at its ends. x_0 is the stream's first reading: a
+/// block, and H_p up to the second order at its ends. So up to three lost readings are put in, by the cubic through the
+/// two readings on either side: of a straight line over 10 ms a wheel's hop of 12 Hz misses 7 %, of the cubic 0.3 %. A
+/// reading behind a loss waits for the next one. x_0 is the stream's first reading: a
 /// constant has no part in any bin that is used, and what is small loses little by stamps that are uneven. Cost per
 /// reading: O(bins), no allocation. Source: Shinbrot's modulating functions, with Fourier's (A. E. Pearson, Y. Shen,
 /// Weighted least squares / MFT algorithms for linear differential system identification, 1993).
@@ -57,7 +60,16 @@ class FourierIntegrals {
     Eigen::ArrayXXcd integrals;
   };
 
+  struct Reading {
+    double time = 0.0;
+    std::vector<double> values;
+    void set(double at, const double* of) { time = at, std::copy_n(of, values.size(), values.begin()); }
+  };
+
   Half& slot(long index) { return halves_[static_cast<std::size_t>(index % kHalves)]; }
+  int lostBefore(double time);                        // number of readings, since last_
+  void bridge(double next_time, const double* next);  // takes in what is lost before held_, and held_
+  void take(double time, const double* values);       // a reading, or one that stands for a lost one
   void begin(long index);
   void add(double time, const double* values, double weight);  // to the open half block
   void finishUntil(long index);
@@ -68,6 +80,10 @@ class FourierIntegrals {
   std::array<Half, kHalves> halves_;
   std::vector<double> cosines_, sines_;  // of w_k (t - a), k = 1 .. a multiple of kLanes
   Eigen::ArrayXXd real_, imaginary_;     // sums of the open half block
+  Reading before_, last_, held_, put_;   // the two newest that are taken in; behind a loss; in place of a lost one
+  int lost_ = 0;                         // readings before held_; 0: none is held
+  int spacings_ = 0;                     // without a gap, as far as they count for usual_
+  double usual_ = 0.0;                   // spacing: the mean of the newest ones [s]
   std::vector<double> first_, newest_;   // readings
   std::optional<double> time_;           // of the newest reading
   double spacing_ = 0.0;                 // before it, as far as it is in the open half block
