@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -110,6 +111,11 @@ struct ForceCurve {
   std::vector<double> force;   ///< positive: pushes the body up [m/s^2]
   std::vector<double> stddev;  ///< by noise and by what straight lines miss: force +- 1.645 stddev holds nine tenths of
                                ///< the law [m/s^2]
+  double model_error = 0.0;    ///< standard deviation of a factor of all forces, by what the model of a vehicle lacks
+                               ///< [-]: no part of stddev, nor of a change between drives
+
+  /// @return the same with the model's error in stddev: what the law itself is known to.
+  ForceCurve absolute() const;
 
   bool covers(double x) const { return !at.empty() && x >= at.front() && x <= at.back(); }
 
@@ -134,9 +140,10 @@ struct StrutCurves {
 /// @param model  a damped spring to start with. Its laws of one variable are the first guess; the others, and the
 /// faults of the reading, are taken as they are.
 /// @param sample_period  T [s]; nothing: the median spacing of the samples.
+/// @param model_error  of damper and spring, as VehicleCoupling::strut_model_errors has it.
 /// @return empty curves if the drives are too short, or the model does not fit them at all.
 /// @throws std::invalid_argument  if there is no drive, the period is not above 0 or an effect is not usable.
 StrutCurves strutCurves(const std::vector<Drive>& drives, const StrutModel& model,
-                        const std::optional<double>& sample_period = {});
+                        const std::optional<double>& sample_period = {}, const std::array<double, 2>& model_error = {});
 
 }  // namespace suspension_health_monitor

@@ -70,9 +70,15 @@ struct VehicleCoupling {
   std::vector<AntiRollBarFound> bars;        ///< that are part of it
   std::vector<KnownForceCoefficients> forces;
   double model_error = std::nan("");  ///< of any rigid body on linear struts, in the largest coefficient of a top [-]
+  /// By strut, of what its damper and its spring do: standard deviations of a factor, by what the model lacks [-].
+  std::vector<std::array<double, 2>> strut_model_errors;
   std::string reason;  ///< why the ratios are not known, to be read after "the drives"; empty if they are
 
   explicit operator bool() const { return reason.empty(); }
+  /// @return strut_model_errors of a strut; none of a strut alone.
+  std::array<double, 2> modelErrorOf(std::size_t strut) const {
+    return strut < strut_model_errors.size() ? strut_model_errors[strut] : std::array<double, 2>{};
+  }
 };
 
 /// By strut the model that is known of it beforehand; a strut without one, and all where it is empty: the linear one,

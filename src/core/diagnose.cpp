@@ -132,9 +132,12 @@ Comparison compare(const std::vector<Drive>& drives, const CompareOptions& optio
 }
 
 StrutCurves strutCurves(const std::vector<Drive>& drives, const StrutModel& model,
-                        const std::optional<double>& sample_period) {
+                        const std::optional<double>& sample_period, const std::array<double, 2>& model_error) {
   const PreparedDrives prepared = prepareDrives(drives, sample_period, std::nullopt, model);
-  return fitCurves(pointersTo(prepared.records), prepared.start);
+  StrutCurves curves = fitCurves(pointersTo(prepared.records), prepared.start);
+  curves.damper.model_error = model_error[0];
+  curves.spring.model_error = model_error[1];
+  return curves;
 }
 
 TravelStatistics travelStatistics(const std::vector<Drive>& drives, const StrutModel& model,

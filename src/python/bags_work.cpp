@@ -97,7 +97,8 @@ auto diagnoseDrives(const Arguments& arguments, int threads, LongWork& work) {
   return byStrut(asked.options, [&](std::size_t i) {
     SearchedStrut result{found.struts[i], changes[i]};
     requireEnough(result.shortcoming, result.reason, asked.options.vehicle.prefix(i, ": "));
-    result.curves = strutCurves(found.drives[i], result.model(), asked.options.period());
+    result.curves =
+        strutCurves(found.drives[i], result.model(), asked.options.period(), found.coupling.modelErrorOf(i));
     result.travel = travelStatistics(found.drives[i], result.model(), asked.options.period());
     result.verdict = found.verdictOn(i);
     result.selected = found.selected(i);

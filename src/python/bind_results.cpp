@@ -101,8 +101,9 @@ void bindDiagnosis(py::module& module) {
   ResultClass<FittedModel>(module, "FittedModel", "A model with its uncertainty.");
   ResultClass<SearchedStrut>(module, "Diagnosis", "What a search for missing effects found.")
       .add("model", &SearchedStrut::model)
-      .add("damper_curve", [](const SearchedStrut& self) { return columnsOf("velocity", self.curves.damper); })
-      .add("spring_curve", [](const SearchedStrut& self) { return columnsOf("travel", self.curves.spring); })
+      .add("damper_curve",
+           [](const SearchedStrut& self) { return columnsOf("velocity", self.curves.damper.absolute()); })
+      .add("spring_curve", [](const SearchedStrut& self) { return columnsOf("travel", self.curves.spring.absolute()); })
       .add("travel", &SearchedStrut::travel)
       .add("costs", &costs);
 }

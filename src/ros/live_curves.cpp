@@ -66,10 +66,11 @@ void LiveCurves::update(const CurveTask& task) {
   header.stamp = toRosTime(newest);
   for (std::size_t i = 0; i < own.struts.size(); ++i) {
     if (!topics_[i].isHeard() || !task.models[i]) continue;
-    const StrutCurves curves = strutCurves(own.struts[i], *task.models[i], options.sample_period);
+    const StrutCurves curves =
+        strutCurves(own.struts[i], *task.models[i], options.sample_period, own.coupling.modelErrorOf(i));
     header.frame_id = task.frames[i];
-    const bool has_damper = publish(topics_[i].damper, "velocity", curves.damper, header);
-    const bool has_spring = publish(topics_[i].spring, "travel", curves.spring, header);
+    const bool has_damper = publish(topics_[i].damper, "velocity", curves.damper.absolute(), header);
+    const bool has_spring = publish(topics_[i].spring, "travel", curves.spring.absolute(), header);
     if (has_damper || has_spring) last_ = newest;
   }
 }

@@ -111,20 +111,20 @@ std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<Iden
   for (const std::size_t i : options.vehicle.asked) {
     const StrutEstimate& linear = found[i].estimate;
     if (i < own.struts.size() && linear.damping_to_mass > 0.0 && linear.stiffness_to_mass > 0.0)
-      curves[i] =
-          strutCurves(own.struts[i], {linear.damping_to_mass, linear.stiffness_to_mass, {}, {}}, options.period());
+      curves[i] = strutCurves(own.struts[i], {linear.damping_to_mass, linear.stiffness_to_mass, {}, {}},
+                              options.period(), own.coupling.modelErrorOf(i));
   }
   return curves;
 }
 
 void printCurves(const StrutCurves& curves, const std::optional<double>& mass) {
-  print("damper at [m/s]", curves.damper, 1.0, mass);
-  print("spring at [mm]", curves.spring, 1e-3, mass);
+  print("damper at [m/s]", curves.damper.absolute(), 1.0, mass);
+  print("spring at [mm]", curves.spring.absolute(), 1e-3, mass);
 }
 
 void addCurves(const StrutCurves& curves, json& into) {
-  into["damper_curve"] = toJson("velocity", curves.damper);
-  into["spring_curve"] = toJson("travel", curves.spring);
+  into["damper_curve"] = toJson("velocity", curves.damper.absolute());
+  into["spring_curve"] = toJson("travel", curves.spring.absolute());
 }
 
 void printTravel(const TravelStatistics& travel) {

@@ -151,7 +151,8 @@ json tell(const VehicleDiagnosis& found, const AskedDrives& asked, const std::ve
       printSearch(strut);
       its.update(toJson(strut));
       its["verdict"] = nameOf(found.verdictOn(i));
-      const StrutCurves curves = strutCurves(found.drives[i], strut.model(), asked.options.period());
+      const StrutCurves curves =
+          strutCurves(found.drives[i], strut.model(), asked.options.period(), found.coupling.modelErrorOf(i));
       printCurves(curves, asked.options.settings.struts[i].monitor.sprung_mass);
       addCurves(curves, its);
       const TravelStatistics travel = travelStatistics(found.drives[i], strut.model(), asked.options.period());

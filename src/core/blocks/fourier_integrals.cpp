@@ -10,8 +10,6 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr int kLanes = 8;  // bins that are turned at once
-constexpr int kMostLost = 3;
-constexpr int kUsualOf = 32;  // spacings that a mean is taken of: the least that a gap is of a block
 
 // Lagrange: weights of the values at four times in that of their polynomial at t.
 std::array<double, 4> lagrange(const std::array<double, 4>& at, double t) {
@@ -59,9 +57,9 @@ int FourierIntegrals::lostBefore(double time) {
     return 0;
   }
   const long lost = spacings_ > 1 ? std::lround(spacing / usual_) - 1 : 0;
-  spacings_ = std::min(spacings_ + 1, kUsualOf);
+  spacings_ = std::min(spacings_ + 1, kBlockTuning.usual_of);
   usual_ += (spacing - usual_) / spacings_;
-  return lost <= kMostLost ? static_cast<int>(lost) : 0;
+  return lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
 }
 
 void FourierIntegrals::bridge(double next_time, const double* next) {

@@ -115,6 +115,9 @@ VehicleCoupling describe(const BodyRows* rows, const std::optional<BodyFitResult
     coupling.forces.push_back({forces[k], columnOf(rows->force, k), columnOf(rows->force_stddev, k)});
   if (!body) return coupling;
   coupling.model_error = body->phi;
+  const auto relative = [](const Measured& value) { return value.stddev / value.value; };
+  for (std::size_t i = 0; i < body->b1.size(); ++i)
+    coupling.strut_model_errors.push_back({relative(body->b1[i]), relative(body->b0[i])});
   for (const BodyFitResult::Bar& bar : body->found)
     coupling.bars.push_back({bar.struts.first, bar.struts.second, bar.stiffness[0].value, bar.stiffness[1].value});
   return coupling;
