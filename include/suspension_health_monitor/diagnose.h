@@ -111,10 +111,10 @@ struct ForceCurve {
   std::vector<double> force;   ///< positive: pushes the body up [m/s^2]
   std::vector<double> stddev;  ///< by noise and by what straight lines miss: force +- 1.645 stddev holds nine tenths of
                                ///< the law [m/s^2]
-  double model_error = 0.0;    ///< standard deviation of a factor of all forces, by what the model of a vehicle lacks
-                               ///< [-]: no part of stddev, nor of a change between drives
+  double model_error = 0.0;  ///< relative standard deviation of all forces alike, by what the model of a vehicle lacks
+                             ///< [-]: not in stddev, since it does not change between drives
 
-  /// @return the same with the model's error in stddev: what the law itself is known to.
+  /// @return the curve with the model's error in stddev, for a comparison with the law itself.
   ForceCurve absolute() const;
 
   bool covers(double x) const { return !at.empty() && x >= at.front() && x <= at.back(); }

@@ -70,7 +70,7 @@ struct VehicleCoupling {
   std::vector<AntiRollBarFound> bars;        ///< that are part of it
   std::vector<KnownForceCoefficients> forces;
   double model_error = std::nan("");  ///< of any rigid body on linear struts, in the largest coefficient of a top [-]
-  /// By strut, of what its damper and its spring do: standard deviations of a factor, by what the model lacks [-].
+  /// By strut: relative standard deviations of its damper and its spring by what the model lacks, as links [-].
   std::vector<std::array<double, 2>> strut_model_errors;
   std::string reason;  ///< why the ratios are not known, to be read after "the drives"; empty if they are
 

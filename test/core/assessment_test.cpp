@@ -295,7 +295,7 @@ TEST(StrutEstimate, SaysHowMuchLongerToDrive) {
   EXPECT_EQ(
       describeDoubt(known, 1.96 * 0.025),
       "too little motion to know damping: drive on, or use a rougher road; damping and stiffness are known to 10 %, "
-      "about 30 s more on this road to 5 % (10 s if all of it is as rough as the roughest quarter so far)");
+      "about 30 s more on this road to 5 % (10 s on a road as rough as the roughest quarter so far)");
   known.doubt = EstimateDoubt::kOldData;
   EXPECT_EQ(describeDoubt(known, 0.05), describe(EstimateDoubt::kOldData));
   EXPECT_TRUE(std::isnan(StrutEstimate().knownTo()));

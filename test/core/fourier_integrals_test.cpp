@@ -100,7 +100,7 @@ TEST(FourierIntegrals, OnUnevenStampsDifferFromTheClosedFormByNoMoreThanTheTrape
 }
 
 // The weights of t +- h, t +- 2 h at t are 4/6 and -1/6: of a sine of w the cubic misses 1 - (4 cos wh - cos 2wh) / 3.
-TEST(FourierIntegrals, ALostReadingIsPutInByTheCubicThroughItsNeighbours) {
+TEST(FourierIntegrals, ALostReadingIsInterpolatedByTheCubicThroughItsNeighbours) {
   Exponentials sine;
   sine.addSine(1.5, 7.3, 0.4);
   const std::vector<double> all = evenStamps(0.01, 4.2);
@@ -119,7 +119,7 @@ TEST(FourierIntegrals, ALostReadingIsPutInByTheCubicThroughItsNeighbours) {
   }
 }
 
-TEST(FourierIntegrals, ThreeLostReadingsArePutInAndFourAreTheStraightLine) {
+TEST(FourierIntegrals, ThreeLostReadingsAreInterpolatedAndFourAreTheStraightLine) {
   const std::vector<double> all = evenStamps(0.01, 4.2);
   const auto cubic = [](double t) { return std::pow(t - 1.3, 3) - 2.0 * t; };
   const auto onlyAt132 = [&](double t) { return t == all[132] ? 1.0 : 0.0; };
@@ -136,7 +136,7 @@ TEST(FourierIntegrals, ThreeLostReadingsArePutInAndFourAreTheStraightLine) {
 }
 
 // Two readings 1 ms apart among others of 10 ms: their slope is noise.
-TEST(FourierIntegrals, NothingIsPutInBesideReadingsThatAreMuchCloser) {
+TEST(FourierIntegrals, NothingIsInterpolatedBesideReadingsThatAreMuchCloser) {
   std::vector<double> stamps = evenStamps(0.01, 4.2);
   stamps.erase(stamps.begin() + 133);
   stamps.insert(stamps.begin() + 133, stamps[133] + 0.001);

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/diagnose.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "hidden_effect.h"
+#include "suspension_health_monitor/diagnose.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -160,6 +159,14 @@ TEST(StrutCurves, EndWhereTheDrivesSayNothing) {
   EXPECT_FALSE(curves.damper.covers(-most) && curves.damper.covers(most));
   for (std::size_t i = 0; i < curves.damper.at.size(); ++i)
     EXPECT_LT(curves.damper.stddev[i], 0.1 * std::max(1.1 * kB1 * kRate, std::abs(curves.damper.force[i])));
+}
+
+TEST(StrutCurves, AbsolutelyHaveTheErrorOfTheVehiclesModelInEveryForce) {
+  const ForceCurve absolute = ForceCurve{{-1.0, 0.0, 2.0}, {-3.0, 0.0, 8.0}, {0.4, 0.0, 0.6}, 0.1}.absolute();
+  EXPECT_DOUBLE_EQ(absolute.stddev[0], 0.5);
+  EXPECT_EQ(absolute.stddev[1], 0.0);
+  EXPECT_DOUBLE_EQ(absolute.stddev[2], 1.0);
+  EXPECT_EQ(absolute.absolute().stddev, absolute.stddev) << "only once";
 }
 
 TEST(StrutCurves, AreEmptyOfTooShortADriveAndOfOneThatDoesNotMove) {

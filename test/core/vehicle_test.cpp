@@ -31,6 +31,7 @@ TEST(SeparatedVehicle, KnowsTheRatiosOfTheBodyAndTheOwnStrutOfEveryCorner) {
       EXPECT_NEAR(separated.models[i].damping_to_mass, own * strut.damping, 0.02 * own * strut.damping) << name << i;
       EXPECT_NEAR(separated.models[i].stiffness_to_mass, own * strut.stiffness, 0.02 * own * strut.stiffness)
           << name << i;
+      for (const double error : separated.coupling.modelErrorOf(i)) EXPECT_LT(error, 0.02) << "of linear struts";
       for (std::size_t j = 0; j < drive.size(); ++j) {
         // Twelve ratios of each of four vehicles: one in 1e6 of them is five standard deviations off.
         const double spread = std::fmax(separated.coupling.stddevs[i][j], 1e-9);

@@ -34,7 +34,7 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
   sines_.resize(cosines_.size());
   real_.setZero(lanes, static_cast<Eigen::Index>(channels));
   imaginary_ = real_;
-  for (Reading* each : {&before_, &last_, &held_, &put_}) each->values.resize(channels);
+  for (Reading* each : {&before_, &last_, &held_, &interpolated_}) each->values.resize(channels);
   for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), static_cast<Eigen::Index>(channels));
 }
 
@@ -59,21 +59,21 @@ int FourierIntegrals::lostBefore(double time) {
   const long lost = spacings_ > 1 ? std::lround(spacing / usual_) - 1 : 0;
   spacings_ = std::min(spacings_ + 1, kBlockTuning.usual_of);
   usual_ += (spacing - usual_) / spacings_;
-  return lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
+  return lost > 0 && lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
 }
 
 void FourierIntegrals::bridge(double next_time, const double* next) {
   const std::array<double, 4> at{before_.time, last_.time, held_.time, next_time};
   const double spacing = (at[2] - at[1]) / (lost_ + 1);
-  // Of two readings that are much closer the cubic would be the noise.
+  // Beside a spacing that is much shorter the cubic would follow the noise of its two readings.
   const bool is_even = 2.0 * std::min(at[1] - at[0], at[3] - at[2]) > spacing;
   for (int k = 1; is_even && k <= lost_; ++k) {
     const double time = at[1] + k * spacing;
     const std::array<double, 4> weights = lagrange(at, time);
     for (std::size_t j = 0; j < channels_; ++j)
-      put_.values[j] = weights[0] * before_.values[j] + weights[1] * last_.values[j] + weights[2] * held_.values[j] +
-                       weights[3] * next[j];
-    take(time, put_.values.data());
+      interpolated_.values[j] = weights[0] * before_.values[j] + weights[1] * last_.values[j] +
+                                weights[2] * held_.values[j] + weights[3] * next[j];
+    take(time, interpolated_.values.data());
   }
   take(held_.time, held_.values.data());
   std::swap(before_, last_);

@@ -107,10 +107,9 @@ std::string describeKnown(double known_to, double enough, double seconds, double
   if (!(seconds > 0.0)) return known;
   if (!(seconds < kDay)) return known + ", this road cannot tell them";
   // The time itself is known to a factor of 1.5, so less than that is not worth a word.
-  const std::string quicker = roughest > 1.5
-                                  ? formatted(" (%.0f s if all of it is as rough as the roughest quarter so far)",
-                                              std::fmax(1.0, seconds / roughest))
-                                  : "";
+  const std::string quicker = roughest > 1.5 ? formatted(" (%.0f s on a road as rough as the roughest quarter so far)",
+                                                         std::fmax(1.0, seconds / roughest))
+                                             : "";
   return known + formatted(", about %.0f s more on this road to ", std::fmax(1.0, seconds)) + sizeInPercent(enough) +
          quicker;
 }

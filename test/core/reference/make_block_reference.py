@@ -87,7 +87,7 @@ def friction_direction(t, w, T, b1, b0, f):
 # -- Spectra -----------------------------------------------------------------------------------------------------------
 
 def with_lost(t, x, T):
-    """Where a spacing is 2, 3 or 4 usual ones, readings from the cubic through the two on either side are put in. Usual is the
+    """Where a spacing is 2, 3 or 4 usual ones, readings are interpolated by the cubic through the two on either side. Usual is the
     mean of the 32 spacings before, as long as there is no gap; two other spacings must have been."""
     times, values, mean, count = [t[0]], [x[0]], 0.0, 0
     for i in range(1, t.size):

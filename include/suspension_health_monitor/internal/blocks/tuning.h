@@ -21,7 +21,7 @@ struct BlockTuning {
   double share_stddev = 0.29;  ///< likewise: 1 / sqrt(12)
   /// of a block: a gap costs as much of its information, and the rule across it is noise that is measured
   double longest_spacing = 1.0 / 32.0;
-  int most_lost = 3;   ///< readings in a row that are put in: as many as the grid of LS and LA bridges
+  int most_lost = 3;   ///< readings in a row that are interpolated: as many as the grid of LS and LA bridges
   int usual_of = 32;   ///< spacings, whose mean is the usual one: one that is lost moves it by no more than a thirtieth
   double full = 10.0;  ///< times the usual power, up to which a block counts in full
   int weightings = 3;  ///< of the blocks; and with each of them of the noise and parameters
