@@ -56,10 +56,11 @@ int FourierIntegrals::lostBefore(double time) {
     spacings_ = 0;
     return 0;
   }
-  const long lost = spacings_ > 1 ? std::lround(spacing / usual_) - 1 : 0;
+  const bool is_usual = spacings_ < 2 || spacing < 1.5 * usual_;
+  const long lost = is_usual ? 0 : std::lround(spacing / usual_) - 1;
   spacings_ = std::min(spacings_ + 1, kBlockTuning.usual_of);
   usual_ += (spacing - usual_) / spacings_;
-  return lost > 0 && lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
+  return lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
 }
 
 void FourierIntegrals::bridge(double next_time, const double* next) {
