@@ -109,7 +109,7 @@ void printSkew(std::optional<double> memory) {
 }
 
 int command(const Arguments& arguments) {
-  const auto memory = arguments.size() > 1 ? std::make_optional(arguments.number(1, 0.0)) : std::nullopt;
+  const std::optional<double> memory = arguments.given(1);
   if (arguments.word(0) == "offset")
     printOffset(memory);
   else if (arguments.word(0) == "skew")

@@ -1,7 +1,6 @@
 // Prints what the monitor says of drives of many kinds (drive_families.h), whose readings arrive as two streams on
 // their own stamps; default settings.
-//   tables family [families|steps|friction|time|all [SEED]]      another SEED: other roads and noise, everything else
-//   alike
+//   tables family [families|steps|friction|time|all [SEED]]      another SEED: other roads and noise, all else alike
 //
 // families: healthy struts with nominal values, per kind of drive. Judged: time at another level than STALE, from 20 s
 // on. Bias: the median error of the valid estimates of a drive. Estimates are looked at once per second, not in the

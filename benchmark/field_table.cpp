@@ -185,7 +185,7 @@ void printSteps(std::optional<double> memory) {
 
 int command(const Arguments& arguments) {
   const std::string what = arguments.word(0);
-  const auto memory = arguments.size() > 1 ? std::make_optional(arguments.number(1, 0.0)) : std::nullopt;
+  const std::optional<double> memory = arguments.given(1);
   if (what == "healthy" || what == "unfiltered")
     printHealthy(memory, arguments.number(2, 10.0), what == "healthy");
   else if (what == "steps")

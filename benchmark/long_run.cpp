@@ -1,7 +1,6 @@
 // Memory and estimates after a day: four corners at 1 kHz, in one process, as fast as it goes.
 //   tables long_run [HOURS]     default 24; ends with 1 if resident memory grows after the first 24th by more than 1 %,
-//   or if
-//                        an estimate is wrong at the end
+//                               or if an estimate is wrong at the end
 #include <chrono>
 #include <cmath>
 #include <cstdint>

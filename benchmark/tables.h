@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ struct Arguments {
   /// @return the i-th word, from 0; `otherwise` if there are fewer.
   std::string word(std::size_t i, const std::string& otherwise = "") const { return i < size() ? words[i] : otherwise; }
   double number(std::size_t i, double otherwise) const { return i < size() ? std::atof(words[i].c_str()) : otherwise; }
+  std::optional<double> given(std::size_t i) const { return i < size() ? std::optional(number(i, 0.0)) : std::nullopt; }
   int count(std::size_t i, int otherwise) const { return static_cast<int>(number(i, otherwise)); }
   unsigned seed(std::size_t i, unsigned otherwise = 1) const { return static_cast<unsigned>(number(i, otherwise)); }
 };

@@ -27,27 +27,33 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
       half_length_(band.length / 2.0),
       longest_spacing_(kBlockTuning.longest_spacing * band.length),
       channels_(channels),
-      first_(channels),
-      newest_(channels) {
+      interpolated_(static_cast<std::size_t>(kBlockTuning.most_lost)),
+      first_(channels) {
   const int lanes = (band.last + 1 + kLanes - 1) / kLanes * kLanes;
   cosines_.resize(static_cast<std::size_t>(lanes));
   sines_.resize(cosines_.size());
   real_.setZero(lanes, static_cast<Eigen::Index>(channels));
   imaginary_ = real_;
-  for (Reading* each : {&before_, &last_, &held_, &interpolated_}) each->values.resize(channels);
+  for (Reading* each : {&before_, &last_, &held_}) each->values.resize(channels);
+  for (Reading& each : interpolated_) each.values.resize(channels);
   for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), static_cast<Eigen::Index>(channels));
 }
 
 void FourierIntegrals::push(double time, const double* values) {
   if (lost_ > 0) bridge(time, values);
-  lost_ = time_ ? lostBefore(time) : 0;
-  if (lost_ > 0) {
-    held_.set(time, values);
-    return;
-  }
-  take(time, values);
+  held_.set(time, values);
+  lost_ = is_empty_ ? 0 : lostBefore(time);
+  if (lost_ > 0) return;
+  if (is_empty_)
+    begin(held_);
+  else
+    addSpacing(last_, held_);
+  takeHeld();
+}
+
+void FourierIntegrals::takeHeld() {
   std::swap(before_, last_);
-  last_.set(time, values);
+  std::swap(last_, held_);
 }
 
 int FourierIntegrals::lostBefore(double time) {
@@ -68,52 +74,53 @@ void FourierIntegrals::bridge(double next_time, const double* next) {
   const double spacing = (at[2] - at[1]) / (lost_ + 1);
   // Beside a spacing that is much shorter the cubic would follow the noise of its two readings.
   const bool is_even = 2.0 * std::min(at[1] - at[0], at[3] - at[2]) > spacing;
+  const Reading* left = &last_;
   for (int k = 1; is_even && k <= lost_; ++k) {
-    const double time = at[1] + k * spacing;
-    const std::array<double, 4> weights = lagrange(at, time);
+    Reading& between = interpolated_[static_cast<std::size_t>(k - 1)];
+    between.time = at[1] + k * spacing;
+    const std::array<double, 4> weights = lagrange(at, between.time);
     for (std::size_t j = 0; j < channels_; ++j)
-      interpolated_.values[j] = weights[0] * before_.values[j] + weights[1] * last_.values[j] +
-                                weights[2] * held_.values[j] + weights[3] * next[j];
-    take(time, interpolated_.values.data());
+      between.values[j] = weights[0] * before_.values[j] + weights[1] * last_.values[j] + weights[2] * held_.values[j] +
+                          weights[3] * next[j];
+    addSpacing(*left, between);
+    left = &between;
   }
-  take(held_.time, held_.values.data());
-  std::swap(before_, last_);
-  std::swap(last_, held_);
+  addSpacing(*left, held_);
+  takeHeld();
 }
 
-void FourierIntegrals::take(double time, const double* values) {
-  const long half = static_cast<long>(std::floor(time / half_length_));
-  if (!time_) {
-    std::copy_n(values, channels_, first_.begin());
-    begin(half);
-    is_whole_ = time - static_cast<double>(half) * half_length_ < longest_spacing_;
+void FourierIntegrals::begin(const Reading& first) {
+  const long half = static_cast<long>(std::floor(first.time / half_length_));
+  first_ = first.values;
+  begin(half);
+  is_whole_ = first.time - static_cast<double>(half) * half_length_ < longest_spacing_;
+  is_empty_ = false;
+}
+
+void FourierIntegrals::addSpacing(const Reading& left, const Reading& right) {
+  const long half = static_cast<long>(std::floor(right.time / half_length_));
+  const double spacing = right.time - left.time;
+  if (spacing > longest_spacing_) {
+    is_whole_ = false;
+    finishUntil(half);
+    is_whole_ = false;
+    spacing_ = 0.0;
+  } else if (half == open_) {
+    add(left, (spacing_ + spacing) / 2.0);
+    spacing_ = spacing;
   } else {
-    const double spacing = time - *time_;
-    const bool is_gap = spacing > longest_spacing_;
-    if (is_gap) {
-      is_whole_ = false;
-      finishUntil(half);
-      is_whole_ = false;
-      spacing_ = 0.0;
-    } else if (half == open_) {
-      add(*time_, newest_.data(), (spacing_ + spacing) / 2.0);
-      spacing_ = spacing;
-    } else {
-      // The end of the half block cuts the spacing: the rule over either part, on the straight line between readings.
-      const double before = (static_cast<double>(half) * half_length_ - *time_) / spacing, after = 1.0 - before;
-      add(*time_, newest_.data(), (spacing_ + (1.0 - after * after) * spacing) / 2.0);
-      add(time, values, before * before * spacing / 2.0);
-      finishUntil(half);
-      add(*time_, newest_.data(), after * after * spacing / 2.0);
-      spacing_ = (1.0 - before * before) * spacing;
-    }
+    // The end of the half block cuts the spacing: the rule over either part, on the straight line between readings.
+    const double before = (static_cast<double>(half) * half_length_ - left.time) / spacing, after = 1.0 - before;
+    add(left, (spacing_ + (1.0 - after * after) * spacing) / 2.0);
+    add(right, before * before * spacing / 2.0);
+    finishUntil(half);
+    add(left, after * after * spacing / 2.0);
+    spacing_ = (1.0 - before * before) * spacing;
   }
-  time_ = time;
-  std::copy_n(values, channels_, newest_.begin());
 }
 
 void FourierIntegrals::restart() {
-  time_.reset();
+  is_empty_ = true;
   lost_ = spacings_ = 0;
   spacing_ = 0.0;
   for (Half& each : halves_) each.index = -1;
@@ -127,8 +134,8 @@ void FourierIntegrals::begin(long index) {
   imaginary_.setZero();
 }
 
-void FourierIntegrals::add(double time, const double* values, double weight) {
-  const double phase = -2.0 * M_PI * (time - static_cast<double>(open_) * half_length_) / band_.length;
+void FourierIntegrals::add(const Reading& reading, double weight) {
+  const double phase = -2.0 * M_PI * (reading.time - static_cast<double>(open_) * half_length_) / band_.length;
   const auto count = static_cast<int>(cosines_.size());
   double *c = cosines_.data(), *s = sines_.data();
   c[0] = std::cos(phase);
@@ -143,7 +150,7 @@ void FourierIntegrals::add(double time, const double* values, double weight) {
     s[k] = c[k - kLanes] * s8 + s[k - kLanes] * c8;
   }
   for (std::size_t j = 0; j < channels_; ++j) {
-    const double x = weight * (values[j] - first_[j]);
+    const double x = weight * (reading.values[j] - first_[j]);
     double *real = real_.col(static_cast<Eigen::Index>(j)).data(),
            *imaginary = imaginary_.col(static_cast<Eigen::Index>(j)).data();
     for (int k = 0; k < count; ++k) {

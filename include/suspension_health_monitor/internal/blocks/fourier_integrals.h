@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
@@ -69,9 +68,11 @@ class FourierIntegrals {
   Half& slot(long index) { return halves_[static_cast<std::size_t>(index % kHalves)]; }
   int lostBefore(double time);                        // number of readings, since last_
   void bridge(double next_time, const double* next);  // takes in what was lost before held_, and held_
-  void take(double time, const double* values);       // a reading, or an interpolated one
+  void takeHeld();
+  void begin(const Reading& first);
+  void addSpacing(const Reading& left, const Reading& right);
   void begin(long index);
-  void add(double time, const double* values, double weight);  // to the open half block
+  void add(const Reading& reading, double weight);  // to the open half block
   void finishUntil(long index);
 
   BlockBand band_;
@@ -80,14 +81,14 @@ class FourierIntegrals {
   std::array<Half, kHalves> halves_;
   std::vector<double> cosines_, sines_;  // of w_k (t - a), k = 1 .. a multiple of kLanes
   Eigen::ArrayXXd real_, imaginary_;     // sums of the open half block
-  Reading before_, last_;                // the two newest that are taken in
-  Reading held_, interpolated_;          // after a loss; in place of a lost one
+  Reading before_, last_, held_;         // the two newest that are taken in; the next one
+  std::vector<Reading> interpolated_;    // in place of lost ones
   int lost_ = 0;                         // readings before held_; 0: none is held
   int spacings_ = 0;                     // without a gap, as far as they count for usual_
   double usual_ = 0.0;                   // spacing: the mean of the newest ones [s]
-  std::vector<double> first_, newest_;   // readings
-  std::optional<double> time_;           // of the newest reading
-  double spacing_ = 0.0;                 // before it, as far as it is in the open half block
+  std::vector<double> first_;            // reading
+  bool is_empty_ = true;                 // there was none
+  double spacing_ = 0.0;                 // before the last one, as far as it is in the open half block
   long open_ = 0;
   bool is_whole_ = false;  // no reading of the open half block is missing
 };
