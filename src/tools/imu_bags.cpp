@@ -67,13 +67,35 @@ Range toRange(const ImuBags& bags, std::uint64_t beginning) {
   return range;
 }
 
+/// The messages of one type in a chunk, decoded. Storage that is used again.
+template <class Message>
+struct Decoded {
+  std::vector<Message> messages;
+  std::size_t count = 0;
+
+  Message& next() {
+    if (count == messages.size()) messages.emplace_back();
+    return messages[count++];
+  }
+};
+
 /// A chunk with messages that have not been delivered.
 struct OpenChunk {
-  ChunkContents contents;
+  struct Message {
+    std::uint64_t time;  // of its recording [ns]
+    std::size_t place;   // of its topic, those of temperatures after those of sensors
+    std::size_t at;      // among those of its type
+  };
+
   std::uint64_t position = 0;
+  ChunkContents contents;
+  std::vector<Message> messages;  // that are wanted
+  Decoded<sensor_msgs::Imu> imus;
+  Decoded<geometry_msgs::WrenchStamped> wrenches;
+  Decoded<sensor_msgs::Temperature> temperatures;
   std::size_t next = 0;
 
-  const BagMessage& message() const { return contents.messages[next]; }
+  const Message& message() const { return messages[next]; }
 };
 
 /// For a heap with the earliest message on top; of messages at the same time the one that was written first.
@@ -81,24 +103,55 @@ bool isLater(const OpenChunk& a, const OpenChunk& b) {
   return std::tie(a.message().time, a.position) > std::tie(b.message().time, b.position);
 }
 
+/// Reads and decodes chunks of one bag, in a thread of its own.
+class ChunkReader {
+ public:
+  ChunkReader(BagFile& file, const ImuBags& bags, const Range& range)
+      : file_(file), topics_(bags.topics), places_(findPlaces(file, bags)), range_(range) {}
+
+  void read(const BagChunk& from, OpenChunk& chunk) {
+    file_.read(from, chunk.contents);
+    chunk.position = from.position;
+    chunk.next = chunk.imus.count = chunk.wrenches.count = chunk.temperatures.count = 0;
+    chunk.messages.clear();
+    for (const BagMessage& message : chunk.contents.messages) {
+      const auto place = places_.find(message.connection);
+      if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
+      if (!place->second || !range_.contains(message.time)) continue;
+      chunk.messages.push_back({message.time, *place->second, decodeInto(chunk, message, *place->second)});
+    }
+  }
+
+ private:
+  std::size_t decodeInto(OpenChunk& chunk, const BagMessage& message, std::size_t place) const {
+    if (place >= topics_.size()) return decodeNext(message, chunk.temperatures);
+    return topics_[place].is_force ? decodeNext(message, chunk.wrenches) : decodeNext(message, chunk.imus);
+  }
+
+  template <class Message>
+  std::size_t decodeNext(const BagMessage& message, Decoded<Message>& decoded) const {
+    decode(file_, message, "", decoded.next());
+    return decoded.count - 1;
+  }
+
+  BagFile& file_;
+  const std::vector<BagTopic>& topics_;
+  Places places_;
+  Range range_;
+};
+
 /// Delivers the messages of one bag by recording time. Its chunks are opened in the order in which they begin and
 /// kept as long as they have messages that are later than the beginning of the next one.
 class Delivery {
  public:
-  Delivery(const BagFile& file, const ImuBags& bags, const Range& range, const TopicSinks& take)
-      : file_(file),
-        places_(findPlaces(file, bags)),
-        topics_(bags.topics),
-        range_(range),
-        take_(take),
-        gaps_(bags.gaps) {}
+  Delivery(const ImuBags& bags, const TopicSinks& take) : topics_(bags.topics), take_(take), gaps_(bags.gaps) {}
 
   /// @return storage of a chunk that is done, to be used again.
-  ChunkContents spare() { return std::exchange(spare_, {}); }
+  OpenChunk spare() { return std::exchange(spare_, {}); }
 
-  void open(std::uint64_t position, ChunkContents contents) {
-    if (contents.messages.empty()) return;
-    open_.push_back({std::move(contents), position, 0});
+  void open(OpenChunk chunk) {
+    if (chunk.messages.empty()) return;
+    open_.push_back(std::move(chunk));
     std::push_heap(open_.begin(), open_.end(), isLater);
   }
 
@@ -109,8 +162,8 @@ class Delivery {
       OpenChunk& chunk = open_.back();
       const bool is_only = open_.size() == 1;
       do {
-        if (!deliver(chunk.message())) return false;
-        if (++chunk.next == chunk.contents.messages.size()) break;
+        if (!deliver(chunk, chunk.message())) return false;
+        if (++chunk.next == chunk.messages.size()) break;
       } while (chunk.message().time < time && (is_only || !isLater(chunk, open_.front())));
       putBack(chunk);
     }
@@ -120,46 +173,30 @@ class Delivery {
  private:
   /// @param last  of those that are open: it goes back onto the heap, unless all its messages are delivered.
   void putBack(OpenChunk& last) {
-    if (last.next < last.contents.messages.size()) return std::push_heap(open_.begin(), open_.end(), isLater);
-    spare_ = std::move(last.contents);
+    if (last.next < last.messages.size()) return std::push_heap(open_.begin(), open_.end(), isLater);
+    spare_ = std::move(last);
     open_.pop_back();
   }
 
-  bool deliver(const BagMessage& message) {
+  bool deliver(const OpenChunk& chunk, const OpenChunk::Message& message) {
     Interruption::check();
-    const auto place = places_.find(message.connection);
-    if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
-    if (!place->second || !range_.contains(message.time)) return true;
-    const std::size_t sensor = *place->second;
-    if (sensor >= topics_.size()) {
-      if (!take_.temperature) return true;
-      decode(file_, message, "", temperature_);
-      return take_.temperature(sensor - topics_.size(), temperature_, Stamp(static_cast<Stamp::rep>(message.time)));
-    }
-    return topics_[sensor].is_force ? deliver(message, sensor, wrench_, take_.wrench)
-                                    : deliver(message, sensor, imu_, take_.imu);
+    const Stamp recorded(static_cast<Stamp::rep>(message.time));
+    if (message.place >= topics_.size())
+      return !take_.temperature ||
+             take_.temperature(message.place - topics_.size(), chunk.temperatures.messages[message.at], recorded);
+    const auto give = [&](const auto& reading, const auto& take) {
+      if (gaps_ != nullptr) gaps_->note(message.place, toStamp(reading.header.stamp));
+      return take(message.place, reading, recorded);
+    };
+    return topics_[message.place].is_force ? give(chunk.wrenches.messages[message.at], take_.wrench)
+                                           : give(chunk.imus.messages[message.at], take_.imu);
   }
 
-  /// @param decoded  storage for it.
-  template <class Message>
-  bool deliver(const BagMessage& message, std::size_t place, Message& decoded,
-               const std::function<bool(std::size_t, const Message&, Stamp)>& take) {
-    decode(file_, message, "", decoded);
-    if (gaps_ != nullptr) gaps_->note(place, toStamp(decoded.header.stamp));
-    return take(place, decoded, Stamp(static_cast<Stamp::rep>(message.time)));
-  }
-
-  const BagFile& file_;
-  Places places_;
   const std::vector<BagTopic>& topics_;
-  Range range_;
   const TopicSinks& take_;
   TopicGaps* gaps_;
   std::vector<OpenChunk> open_;  // a heap
-  ChunkContents spare_;          // storage of a chunk that is done
-  sensor_msgs::Imu imu_;
-  geometry_msgs::WrenchStamped wrench_;
-  sensor_msgs::Temperature temperature_;
+  OpenChunk spare_;              // storage of a chunk that is done
 };
 
 bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
@@ -169,25 +206,26 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
   const Range range = toRange(bags, chunks.front().start);
   chunks.erase(std::remove_if(chunks.begin(), chunks.end(), [&](const BagChunk& c) { return !range.overlaps(c); }),
                chunks.end());
-  Delivery delivery(file, bags, range, take);
+  ChunkReader reader(file, bags, range);
+  Delivery delivery(bags, take);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
-  // While the messages of a chunk are used, another thread reads and decompresses the next, which takes a third of the
-  // time of `identify`. Without that thread it is done when the chunk is wanted.
+  // While the messages of a chunk are used, another thread reads and decodes the next, which takes a third of the time
+  // of `identify`. Without that thread it is done when the chunk is wanted.
   const std::launch launch = bags.reads_ahead ? std::launch::async : std::launch::deferred;
-  const auto begin = [&](std::size_t chunk) {
-    return std::async(launch, [&file, &coming = chunks[chunk], contents = delivery.spare()]() mutable {
-      file.read(coming, contents);
-      return std::move(contents);
+  const auto begin = [&](std::size_t at) {
+    return std::async(launch, [&reader, &coming = chunks[at], chunk = delivery.spare()]() mutable {
+      reader.read(coming, chunk);
+      return std::move(chunk);
     });
   };
-  std::future<ChunkContents> next;  // last: its thread, which uses all else, is waited for first
+  std::future<OpenChunk> next;  // last: its thread, which uses all else, is waited for first
   if (!chunks.empty()) next = begin(0);
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     progress.update(static_cast<double>(i + 1));
     if (!delivery.deliverBefore(chunks[i].start)) return false;
-    ChunkContents contents = next.get();
+    OpenChunk chunk = next.get();
     if (i + 1 < chunks.size()) next = begin(i + 1);
-    delivery.open(chunks[i].position, std::move(contents));
+    delivery.open(std::move(chunk));
   }
   return delivery.deliverBefore(std::numeric_limits<std::uint64_t>::max());
 }

@@ -9,8 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kLanes = 8;  // bins that are turned at once
-
 // Lagrange: weights of the values at four times in that of their polynomial at t.
 std::array<double, 4> lagrange(const std::array<double, 4>& at, double t) {
   std::array<double, 4> weights{1.0, 1.0, 1.0, 1.0};
@@ -29,10 +27,9 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
       channels_(channels),
       interpolated_(static_cast<std::size_t>(kBlockTuning.most_lost)),
       first_(channels) {
-  const int lanes = (band.last + 1 + kLanes - 1) / kLanes * kLanes;
-  cosines_.resize(static_cast<std::size_t>(lanes));
-  sines_.resize(cosines_.size());
-  real_.setZero(lanes, static_cast<Eigen::Index>(channels));
+  cosines_.resize(band.last + 1);
+  sines_.resize(band.last + 1);
+  real_.setZero(band.last + 1, static_cast<Eigen::Index>(channels));
   imaginary_ = real_;
   for (Reading* each : {&before_, &last_, &held_}) each->values.resize(channels);
   for (Reading& each : interpolated_) each.values.resize(channels);
@@ -136,27 +133,18 @@ void FourierIntegrals::begin(long index) {
 
 void FourierIntegrals::add(const Reading& reading, double weight) {
   const double phase = -2.0 * M_PI * (reading.time - static_cast<double>(open_) * half_length_) / band_.length;
-  const auto count = static_cast<int>(cosines_.size());
-  double *c = cosines_.data(), *s = sines_.data();
-  c[0] = std::cos(phase);
-  s[0] = std::sin(phase);
-  for (int k = 1; k < kLanes; ++k) {
-    c[k] = c[k - 1] * c[0] - s[k - 1] * s[0];
-    s[k] = c[k - 1] * s[0] + s[k - 1] * c[0];
-  }
-  const double c8 = c[kLanes - 1], s8 = s[kLanes - 1];
-  for (int k = kLanes; k < count; ++k) {
-    c[k] = c[k - kLanes] * c8 - s[k - kLanes] * s8;
-    s[k] = c[k - kLanes] * s8 + s[k - kLanes] * c8;
+  cosines_[0] = std::cos(phase);
+  sines_[0] = std::sin(phase);
+  for (Eigen::Index n = 1; n < cosines_.size(); n *= 2) {  // those of n bins, turned by the last of them, are n more
+    const Eigen::Index more = std::min(n, cosines_.size() - n);
+    const double c = cosines_[n - 1], s = sines_[n - 1];
+    cosines_.segment(n, more) = cosines_.head(more) * c - sines_.head(more) * s;
+    sines_.segment(n, more) = cosines_.head(more) * s + sines_.head(more) * c;
   }
   for (std::size_t j = 0; j < channels_; ++j) {
     const double x = weight * (reading.values[j] - first_[j]);
-    double *real = real_.col(static_cast<Eigen::Index>(j)).data(),
-           *imaginary = imaginary_.col(static_cast<Eigen::Index>(j)).data();
-    for (int k = 0; k < count; ++k) {
-      real[k] += x * c[k];
-      imaginary[k] += x * s[k];
-    }
+    real_.col(static_cast<Eigen::Index>(j)) += x * cosines_;
+    imaginary_.col(static_cast<Eigen::Index>(j)) += x * sines_;
   }
 }
 

@@ -21,16 +21,16 @@ double SlidingFriction::push(double time, double wheel) {
       std::max({friction_, kBlockTuning.least_friction * std::sqrt(variance_), std::numeric_limits<double>::min()});
   const int steps = static_cast<int>(std::ceil(spacing / longest_step_));
   const double h = spacing / steps, damped = 1.0 / (1.0 + h * (b1_ + h * b0_)), limit = h * friction * damped;
-  double direction = 0.0;
-  for (int i = 1; i <= steps; ++i) {
-    const double drive = wheel_ + (wheel - wheel_) * i / steps - mean_;
-    const double free = (rate_ + h * (drive - b0_ * travel_)) * damped;
+  const double of_drive = h * damped, of_travel = of_drive * b0_, slope = (wheel - wheel_) / steps;
+  double drive = wheel_ - mean_, free = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    drive += slope;
+    free = damped * rate_ + (of_drive * drive - of_travel * travel_);
     rate_ = std::copysign(std::max(std::abs(free) - limit, 0.0), free);
-    direction = (free - rate_) / limit;
     travel_ += h * rate_;
   }
   wheel_ = wheel;
-  return direction;
+  return (free - rate_) / limit;
 }
 
 }  // namespace suspension_health_monitor

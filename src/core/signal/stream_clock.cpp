@@ -24,7 +24,8 @@ void SamplingTest::add(double value, double off) {
   off_.push(off);
   if (++in_a_row_ < kWindow) return;
   double mean = 0.0, e = 0.0, r = 0.0, instrument = 0.0;
-  for (std::size_t i = 0; i < kDifference.size(); ++i) mean += off_.window()[kReach + i] / kDifference.size();
+  for (std::size_t i = 0; i < kDifference.size(); ++i) mean += off_.window()[kReach + i];
+  mean /= kDifference.size();
   for (std::size_t i = 0; i < kDifference.size(); ++i) {
     const double* x = values_.window() + kReach + i;
     const double distance = off_.window()[kReach + i] - mean;
@@ -33,11 +34,11 @@ void SamplingTest::add(double value, double off) {
     instrument += kDifference[i] * rateBy(2, x) * distance;
   }
   products_.add({instrument * r, instrument * e, instrument * instrument, e * e});
-  const double moment = products_.mean(0), slope = products_.mean(1) / moment;
+  const double moment = products_.mean(0), beyond = products_.mean(1) - 0.5 * moment;  // (b - 1/2) times the moment
   const double independent = products_.weight() / kDifference.size();  // neighbouring differences share readings
-  const double stddev = std::sqrt(products_.mean(2) * products_.mean(3) / independent) / std::abs(moment);
-  const bool is_certain = products_.weight() >= kFewest && std::abs(slope - 0.5) > kProven * stddev;
-  less_than_half_ = !is_certain ? 0 : slope < 0.5 ? 1 : -1;
+  const double variance = products_.mean(2) * products_.mean(3) / independent;
+  const bool is_certain = products_.weight() >= kFewest && square(beyond) > square(kProven) * variance;
+  less_than_half_ = !is_certain ? 0 : (beyond < 0.0) == (moment > 0.0) ? 1 : -1;
 }
 
 namespace {

@@ -79,16 +79,16 @@ class FourierIntegrals {
   double half_length_, longest_spacing_;
   std::size_t channels_;
   std::array<Half, kHalves> halves_;
-  std::vector<double> cosines_, sines_;  // of w_k (t - a), k = 1 .. a multiple of kLanes
-  Eigen::ArrayXXd real_, imaginary_;     // sums of the open half block
-  Reading before_, last_, held_;         // the two newest that are taken in; the next one
-  std::vector<Reading> interpolated_;    // in place of lost ones
-  int lost_ = 0;                         // readings before held_; 0: none is held
-  int spacings_ = 0;                     // without a gap, as far as they count for usual_
-  double usual_ = 0.0;                   // spacing: the mean of the newest ones [s]
-  std::vector<double> first_;            // reading
-  bool is_empty_ = true;                 // there was none
-  double spacing_ = 0.0;                 // before the last one, as far as it is in the open half block
+  Eigen::ArrayXd cosines_, sines_;     // of w_k (t - a), k = 1 .. last + 1
+  Eigen::ArrayXXd real_, imaginary_;   // sums of the open half block
+  Reading before_, last_, held_;       // the two newest that are taken in; the next one
+  std::vector<Reading> interpolated_;  // in place of lost ones
+  int lost_ = 0;                       // readings before held_; 0: none is held
+  int spacings_ = 0;                   // without a gap, as far as they count for usual_
+  double usual_ = 0.0;                 // spacing: the mean of the newest ones [s]
+  std::vector<double> first_;          // reading
+  bool is_empty_ = true;               // there was none
+  double spacing_ = 0.0;               // before the last one, as far as it is in the open half block
   long open_ = 0;
   bool is_whole_ = false;  // no reading of the open half block is missing
 };
