@@ -25,7 +25,7 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
       pipeline_(
           options.settings, streams_, options.bags.transforms.get(),
           [this, report](std::size_t strut, const MonitorReport& newest) {
-            logs_[strut].addReport(newest);
+            if (!logs_.empty()) logs_[strut].addReport(newest);
             if (report) report(strut, newest);
           },
           false) {
@@ -35,10 +35,9 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
     });
     pipeline_.setEffects(model.effects(), model.strutFor(model.effects()), i);
     if (healthy_[i]) pipeline_.setBaseline(healthy_[i]->baseline, i);
-    logs_.emplace_back(fromSeconds(options.settings.common.shell.input_timeout), options.bags.neededTopics(),
-                       [this, i, row](const HealthMoment& moment) {
-                         if (row) row(i, moment, pipeline_.baseline(i));
-                       });
+    if (row)
+      logs_.emplace_back(fromSeconds(options.settings.common.shell.input_timeout), options.bags.neededTopics(),
+                         [this, i, row](const HealthMoment& moment) { row(i, moment, pipeline_.baseline(i)); });
   }
 }
 
@@ -58,7 +57,7 @@ std::vector<RecordedMonitor::Recording> RecordedMonitor::read() {
     return true;
   };
   for (const std::string& path : options_.bags.paths) {
-    recordings.push_back({fileNames({path}).front(), logs_.front().elapsed()});
+    recordings.push_back({fileNames({path}).front(), logs_.empty() ? Stamp::zero() : logs_.front().elapsed()});
     readTopics(options_.bags.of(path, gaps_), {take, take, take_temperature});
     pipeline_.finish();
     for (HealthLog& log : logs_) log.finishRecording();

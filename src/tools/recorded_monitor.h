@@ -17,6 +17,9 @@ class RecordedMonitor {
  public:
   using Row = std::function<void(std::size_t strut, const HealthMoment&, const Baseline&)>;
 
+  /// For a log that nobody follows.
+  static void noRows(std::size_t, const HealthMoment&, const Baseline&) {}
+
   /// A bag, and the time elapsed when it begins.
   struct Recording {
     std::string name;
@@ -27,7 +30,7 @@ class RecordedMonitor {
   /// Reads the models that the settings name.
   /// @param options  outlive this object.
   /// @param healthy  by strut what it is judged by, if it is known beforehand.
-  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then, if it is given.
+  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then; empty: no log is kept.
   /// @param report  called with every report, if it is given.
   /// @throws std::invalid_argument  as LiveModel, naming the strut.
   RecordedMonitor(const BagOptions& options, HealthyStruts healthy, const Row& row, const Report& report = {});

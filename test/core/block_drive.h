@@ -155,12 +155,13 @@ inline Eigen::ArrayXcd wholeBlock(const BlockBand& band, const FourierIntegrals&
 inline std::vector<StrutBlock> sampledBlocks(const StrutEquations& equations, const SampledStrut& drive) {
   const BlockBand& band = equations.band();
   FourierIntegrals wheel(band, 1), body(band, 1);
+  FourierPhases phases(band);
   std::vector<StrutBlock> blocks;
   long half = 1;
   for (std::size_t i = 0; i < drive.body.size(); ++i) {
     const double time = static_cast<double>(i) / drive.rate;
-    wheel.push(time, &drive.wheel[i]);
-    body.push(time, &drive.body[i]);
+    wheel.push(time, &drive.wheel[i], phases);
+    body.push(time, &drive.body[i], phases);
     if (wheel.openHalf() <= half) continue;
     blocks.push_back(equations.makeBlock());
     blocks.back().end = 0.5 * band.length * static_cast<double>(half + 1);

@@ -60,15 +60,16 @@ class ReferenceDrive {
     SlidingFriction friction(band.length / 4096.0, 2.0 * band.length);
     friction.setStrut(theta[0], theta[1], theta[kNumBlockParameters]);
     FourierIntegrals wheels(band, 2), bodies(band, 1);
+    FourierPhases phases(band);
     std::size_t next = 0;
     for (std::size_t i = 0; i < wheel.values.size(); ++i) {
       const double values[] = {wheel.values[i], friction.push(wheel.times[i], wheel.values[i])};
-      wheels.push(wheel.times[i], values);
+      wheels.push(wheel.times[i], values, phases);
       for (; next < body.values.size() && body.times[next] <= wheel.times[i]; ++next)
-        bodies.push(body.times[next], &body.values[next]);
+        bodies.push(body.times[next], &body.values[next], phases);
       take(wheels, bodies);
     }
-    for (; next < body.values.size(); ++next) bodies.push(body.times[next], &body.values[next]);
+    for (; next < body.values.size(); ++next) bodies.push(body.times[next], &body.values[next], phases);
     take(wheels, bodies);
   }
 

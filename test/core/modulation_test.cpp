@@ -71,9 +71,10 @@ TEST(Modulation, OfReadingsIsTheIntegralUpToTheTrapezoidRulesErrorAtTheEnds) {
   const Exponentials motion = severalSines();
   for (const double rate : {100.0, 200.0}) {
     FourierIntegrals stream(kBand, 1);
+    FourierPhases phases(kBand);
     for (int i = 0; i <= 2 * rate; ++i) {
       const double t = i / rate, value = motion.at(kStart + t);
-      stream.push(t, &value);
+      stream.push(t, &value, phases);
     }
     const double jump = std::abs(motion.at(kStart + kBand.length) - motion.at(kStart));
     const double bend = std::abs(derivative(motion, kStart + kBand.length, 1) - derivative(motion, kStart, 1));

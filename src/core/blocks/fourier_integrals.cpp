@@ -20,6 +20,20 @@ std::array<double, 4> lagrange(const std::array<double, 4>& at, double t) {
 
 }  // namespace
 
+void FourierPhases::turnTo(double time) {
+  if (time == time_) return;
+  time_ = time;
+  const double phase = -2.0 * M_PI * time / length_;
+  cosines_[0] = std::cos(phase);
+  sines_[0] = std::sin(phase);
+  for (Eigen::Index n = 1; n < cosines_.size(); n *= 2) {  // those of n bins, turned by the last of them, are n more
+    const Eigen::Index more = std::min(n, cosines_.size() - n);
+    const double c = cosines_[n - 1], s = sines_[n - 1];
+    cosines_.segment(n, more) = cosines_.head(more) * c - sines_.head(more) * s;
+    sines_.segment(n, more) = cosines_.head(more) * s + sines_.head(more) * c;
+  }
+}
+
 FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
     : band_(band),
       half_length_(band.length / 2.0),
@@ -27,8 +41,6 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
       channels_(channels),
       interpolated_(static_cast<std::size_t>(kBlockTuning.most_lost)),
       first_(channels) {
-  cosines_.resize(band.last + 1);
-  sines_.resize(band.last + 1);
   real_.setZero(band.last + 1, static_cast<Eigen::Index>(channels));
   imaginary_ = real_;
   for (Reading* each : {&before_, &last_, &held_}) each->values.resize(channels);
@@ -36,15 +48,15 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
   for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), static_cast<Eigen::Index>(channels));
 }
 
-void FourierIntegrals::push(double time, const double* values) {
-  if (lost_ > 0) bridge(time, values);
+void FourierIntegrals::push(double time, const double* values, FourierPhases& phases) {
+  if (lost_ > 0) bridge(time, values, phases);
   held_.set(time, values);
   lost_ = is_empty_ ? 0 : lostBefore(time);
   if (lost_ > 0) return;
   if (is_empty_)
     begin(held_);
   else
-    addSpacing(last_, held_);
+    addSpacing(last_, held_, phases);
   takeHeld();
 }
 
@@ -66,7 +78,7 @@ int FourierIntegrals::lostBefore(double time) {
   return lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
 }
 
-void FourierIntegrals::bridge(double next_time, const double* next) {
+void FourierIntegrals::bridge(double next_time, const double* next, FourierPhases& phases) {
   const std::array<double, 4> at{before_.time, last_.time, held_.time, next_time};
   const double spacing = (at[2] - at[1]) / (lost_ + 1);
   // Beside a spacing that is much shorter the cubic would follow the noise of its two readings.
@@ -79,10 +91,10 @@ void FourierIntegrals::bridge(double next_time, const double* next) {
     for (std::size_t j = 0; j < channels_; ++j)
       between.values[j] = weights[0] * before_.values[j] + weights[1] * last_.values[j] + weights[2] * held_.values[j] +
                           weights[3] * next[j];
-    addSpacing(*left, between);
+    addSpacing(*left, between, phases);
     left = &between;
   }
-  addSpacing(*left, held_);
+  addSpacing(*left, held_, phases);
   takeHeld();
 }
 
@@ -94,7 +106,7 @@ void FourierIntegrals::begin(const Reading& first) {
   is_empty_ = false;
 }
 
-void FourierIntegrals::addSpacing(const Reading& left, const Reading& right) {
+void FourierIntegrals::addSpacing(const Reading& left, const Reading& right, FourierPhases& phases) {
   const long half = static_cast<long>(std::floor(right.time / half_length_));
   const double spacing = right.time - left.time;
   if (spacing > longest_spacing_) {
@@ -103,15 +115,15 @@ void FourierIntegrals::addSpacing(const Reading& left, const Reading& right) {
     is_whole_ = false;
     spacing_ = 0.0;
   } else if (half == open_) {
-    add(left, (spacing_ + spacing) / 2.0);
+    add(left, (spacing_ + spacing) / 2.0, phases);
     spacing_ = spacing;
   } else {
     // The end of the half block cuts the spacing: the rule over either part, on the straight line between readings.
     const double before = (static_cast<double>(half) * half_length_ - left.time) / spacing, after = 1.0 - before;
-    add(left, (spacing_ + (1.0 - after * after) * spacing) / 2.0);
-    add(right, before * before * spacing / 2.0);
+    add(left, (spacing_ + (1.0 - after * after) * spacing) / 2.0, phases);
+    add(right, before * before * spacing / 2.0, phases);
     finishUntil(half);
-    add(left, after * after * spacing / 2.0);
+    add(left, after * after * spacing / 2.0, phases);
     spacing_ = (1.0 - before * before) * spacing;
   }
 }
@@ -131,20 +143,12 @@ void FourierIntegrals::begin(long index) {
   imaginary_.setZero();
 }
 
-void FourierIntegrals::add(const Reading& reading, double weight) {
-  const double phase = -2.0 * M_PI * (reading.time - static_cast<double>(open_) * half_length_) / band_.length;
-  cosines_[0] = std::cos(phase);
-  sines_[0] = std::sin(phase);
-  for (Eigen::Index n = 1; n < cosines_.size(); n *= 2) {  // those of n bins, turned by the last of them, are n more
-    const Eigen::Index more = std::min(n, cosines_.size() - n);
-    const double c = cosines_[n - 1], s = sines_[n - 1];
-    cosines_.segment(n, more) = cosines_.head(more) * c - sines_.head(more) * s;
-    sines_.segment(n, more) = cosines_.head(more) * s + sines_.head(more) * c;
-  }
+void FourierIntegrals::add(const Reading& reading, double weight, FourierPhases& phases) {
+  phases.turnTo(reading.time - static_cast<double>(open_) * half_length_);
   for (std::size_t j = 0; j < channels_; ++j) {
     const double x = weight * (reading.values[j] - first_[j]);
-    real_.col(static_cast<Eigen::Index>(j)) += x * cosines_;
-    imaginary_.col(static_cast<Eigen::Index>(j)) += x * sines_;
+    real_.col(static_cast<Eigen::Index>(j)) += x * phases.cosines();
+    imaginary_.col(static_cast<Eigen::Index>(j)) += x * phases.sines();
   }
 }
 

@@ -5,7 +5,12 @@
 namespace suspension_health_monitor {
 
 VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleChannels& vehicle, std::size_t effects)
-    : band_(band), vehicle_(vehicle), modulation_(band), channel_(band.spectrumSize()), derivative_(band.size()) {
+    : band_(band),
+      vehicle_(vehicle),
+      modulation_(band),
+      phases_(band),
+      channel_(band.spectrumSize()),
+      derivative_(band.size()) {
   for (const VehicleChannels::Strut& strut : vehicle.struts) {
     wheels_.emplace_back(band, effects > 0 ? 1 : 2);
     own_of_.push_back(own_.size());
@@ -19,11 +24,11 @@ VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleChannels& veh
 void VehicleSpectra::push(const VehicleReading& reading, double time, double direction) {
   using Sensor = VehicleReading::Sensor;
   const auto& values = reading.values;
-  if (reading.sensor == Sensor::kTop) return own_[own_of_[reading.place]].push(time, values.data());
-  if (reading.sensor == Sensor::kForce) return forces_[reading.place].push(time, values.data());
+  if (reading.sensor == Sensor::kTop) return own_[own_of_[reading.place]].push(time, values.data(), phases_);
+  if (reading.sensor == Sensor::kForce) return forces_[reading.place].push(time, values.data(), phases_);
   if (reading.sensor == Sensor::kWheel) {
     const double of_wheel[] = {values[0], direction};
-    return wheels_[reading.place].push(time, of_wheel);
+    return wheels_[reading.place].push(time, of_wheel, phases_);
   }
   const double wx = values[3], wy = values[4], wz = values[5];
   std::array<double, kBodyChannels> of_body;
@@ -33,7 +38,7 @@ void VehicleSpectra::push(const VehicleReading& reading, double time, double dir
   of_body[kWzWx] = wz * wx;
   of_body[kWzWy] = wz * wy;
   of_body[kWx2Wy2] = wx * wx + wy * wy;
-  body_.front().push(time, of_body.data());
+  body_.front().push(time, of_body.data(), phases_);
 }
 
 void VehicleSpectra::restart() {

@@ -23,6 +23,7 @@ BlockBand bandOfCheck() {
 ImuSpectra::ImuSpectra(std::size_t imus)
     : band_(bandOfCheck()),
       modulation_(band_),
+      phases_(band_),
       streams_(imus, {FourierIntegrals(band_, kAxes)}),
       sums_(static_cast<std::size_t>(band_.size()),
             Eigen::MatrixXcd::Zero(static_cast<Index>(kAxes * imus), static_cast<Index>(kAxes * imus))),
@@ -33,7 +34,7 @@ void ImuSpectra::push(std::size_t imu, Stamp stamp, const SixAxes& reading) {
   if (!origin_) origin_ = stamp;
   if ((stream.last && stamp <= *stream.last) || stamp < *origin_ || !reading.allFinite()) return;
   stream.last = stamp;
-  stream.integrals.push(toSeconds(stamp - *origin_), reading.data());
+  stream.integrals.push(toSeconds(stamp - *origin_), reading.data(), phases_);
   long slowest = stream.integrals.openHalf(), fastest = 0;
   for (const Stream& each : streams_) {
     slowest = std::min(slowest, each.integrals.openHalf());

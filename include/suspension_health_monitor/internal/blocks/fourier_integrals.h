@@ -4,11 +4,30 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 
 namespace suspension_health_monitor {
+
+/// e^(-j w_k t), k = 1 .. last + 1, of the newest time: streams that are read in step share it.
+class FourierPhases {
+ public:
+  explicit FourierPhases(const BlockBand& band)
+      : length_(band.length), cosines_(band.last + 1), sines_(band.last + 1) {}
+
+  /// @param time  since the start of the half block [s].
+  void turnTo(double time);
+
+  const Eigen::ArrayXd& cosines() const { return cosines_; }
+  const Eigen::ArrayXd& sines() const { return sines_; }  ///< negative ones
+
+ private:
+  double length_;
+  std::optional<double> time_;
+  Eigen::ArrayXd cosines_, sines_;
+};
 
 /// Fourier integrals of the channels of one stream over half blocks, by the trapezoid rule on the stream's own stamps:
 ///     I_k = sum of (x_i - x_0) e^(-j w_k (t_i - a)) (t_(i+1) - t_(i-1)) / 2 over a <= t_i < a + T/2,
@@ -30,7 +49,8 @@ class FourierIntegrals {
 
   /// Takes in the next reading; stamps increase.
   /// @param time  since the start of half block 0 [s], not negative.
-  void push(double time, const double* values);
+  /// @param phases  of the same band.
+  void push(double time, const double* values, FourierPhases& phases);
 
   /// The next reading is the first one.
   void restart();
@@ -66,20 +86,20 @@ class FourierIntegrals {
   };
 
   Half& slot(long index) { return halves_[static_cast<std::size_t>(index % kHalves)]; }
-  int lostBefore(double time);                        // number of readings, since last_
-  void bridge(double next_time, const double* next);  // takes in what was lost before held_, and held_
+  int lostBefore(double time);  // number of readings, since last_
+  // Takes in what was lost before held_, and held_.
+  void bridge(double next_time, const double* next, FourierPhases& phases);
   void takeHeld();
   void begin(const Reading& first);
-  void addSpacing(const Reading& left, const Reading& right);
+  void addSpacing(const Reading& left, const Reading& right, FourierPhases& phases);
   void begin(long index);
-  void add(const Reading& reading, double weight);  // to the open half block
+  void add(const Reading& reading, double weight, FourierPhases& phases);  // to the open half block
   void finishUntil(long index);
 
   BlockBand band_;
   double half_length_, longest_spacing_;
   std::size_t channels_;
   std::array<Half, kHalves> halves_;
-  Eigen::ArrayXd cosines_, sines_;     // of w_k (t - a), k = 1 .. last + 1
   Eigen::ArrayXXd real_, imaginary_;   // sums of the open half block
   Reading before_, last_, held_;       // the two newest that are taken in; the next one
   std::vector<Reading> interpolated_;  // in place of lost ones

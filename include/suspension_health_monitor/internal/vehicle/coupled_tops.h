@@ -30,7 +30,7 @@ class VehicleSpectra {
   /// @param direction  of friction, -1 to 1, with that of a wheel.
   void push(const VehicleReading& reading, double time, double direction);
   /// @param forces  of the effects, per body mass.
-  void pushEffects(double time, const double* forces) { effects_.front().push(time, forces); }
+  void pushEffects(double time, const double* forces) { effects_.front().push(time, forces, phases_); }
 
   /// The next reading of every stream is its first one.
   void restart();
@@ -56,6 +56,7 @@ class VehicleSpectra {
   BlockBand band_;
   VehicleChannels vehicle_;
   Modulation modulation_;
+  FourierPhases phases_;
   std::vector<FourierIntegrals> wheels_, own_, body_, forces_, effects_;
   std::vector<std::size_t> own_of_;  // by strut, in own_
   Eigen::ArrayXcd channel_, derivative_;

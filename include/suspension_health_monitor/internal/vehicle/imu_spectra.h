@@ -56,6 +56,7 @@ class ImuSpectra {
 
   BlockBand band_;
   Modulation modulation_;
+  FourierPhases phases_;
   std::vector<Stream> streams_;
   std::optional<Stamp> origin_;
   long next_half_ = 1;
