@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 #include <utility>
+#include <variant>
 
 #include "../ros/conversions.h"
 #include "bag_file.h"
@@ -67,35 +68,22 @@ Range toRange(const ImuBags& bags, std::uint64_t beginning) {
   return range;
 }
 
-/// The messages of one type in a chunk, decoded. Storage that is used again.
-template <class Message>
-struct Decoded {
-  std::vector<Message> messages;
-  std::size_t count = 0;
-
-  Message& next() {
-    if (count == messages.size()) messages.emplace_back();
-    return messages[count++];
-  }
+/// A message that is wanted, decoded.
+struct Message {
+  std::uint64_t time = 0;  // of its recording [ns]
+  std::size_t place = 0;   // of its topic, those of temperatures after those of sensors
+  std::variant<sensor_msgs::Imu, geometry_msgs::WrenchStamped, sensor_msgs::Temperature> body;
 };
 
-/// A chunk with messages that have not been delivered.
+/// A chunk with messages that have not been delivered. Its storage is used again.
 struct OpenChunk {
-  struct Message {
-    std::uint64_t time;  // of its recording [ns]
-    std::size_t place;   // of its topic, those of temperatures after those of sensors
-    std::size_t at;      // among those of its type
-  };
-
   std::uint64_t position = 0;
   ChunkContents contents;
-  std::vector<Message> messages;  // that are wanted
-  Decoded<sensor_msgs::Imu> imus;
-  Decoded<geometry_msgs::WrenchStamped> wrenches;
-  Decoded<sensor_msgs::Temperature> temperatures;
-  std::size_t next = 0;
+  std::vector<Message> messages;
+  std::size_t next = 0, end = 0;  // of `messages`
 
   const Message& message() const { return messages[next]; }
+  bool isDone() const { return next == end; }
 };
 
 /// For a heap with the earliest message on top; of messages at the same time the one that was written first.
@@ -103,7 +91,7 @@ bool isLater(const OpenChunk& a, const OpenChunk& b) {
   return std::tie(a.message().time, a.position) > std::tie(b.message().time, b.position);
 }
 
-/// Reads and decodes chunks of one bag, in a thread of its own.
+/// Reads and decodes chunks of one bag.
 class ChunkReader {
  public:
   ChunkReader(BagFile& file, const ImuBags& bags, const Range& range)
@@ -112,26 +100,29 @@ class ChunkReader {
   void read(const BagChunk& from, OpenChunk& chunk) {
     file_.read(from, chunk.contents);
     chunk.position = from.position;
-    chunk.next = chunk.imus.count = chunk.wrenches.count = chunk.temperatures.count = 0;
-    chunk.messages.clear();
+    chunk.next = chunk.end = 0;
     for (const BagMessage& message : chunk.contents.messages) {
       const auto place = places_.find(message.connection);
       if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
       if (!place->second || !range_.contains(message.time)) continue;
-      chunk.messages.push_back({message.time, *place->second, decodeInto(chunk, message, *place->second)});
+      if (chunk.end == chunk.messages.size()) chunk.messages.emplace_back();
+      Message& decoded = chunk.messages[chunk.end++];
+      decoded.time = message.time;
+      decoded.place = *place->second;
+      if (decoded.place >= topics_.size())
+        decodeInto<sensor_msgs::Temperature>(message, decoded);
+      else if (topics_[decoded.place].is_force)
+        decodeInto<geometry_msgs::WrenchStamped>(message, decoded);
+      else
+        decodeInto<sensor_msgs::Imu>(message, decoded);
     }
   }
 
  private:
-  std::size_t decodeInto(OpenChunk& chunk, const BagMessage& message, std::size_t place) const {
-    if (place >= topics_.size()) return decodeNext(message, chunk.temperatures);
-    return topics_[place].is_force ? decodeNext(message, chunk.wrenches) : decodeNext(message, chunk.imus);
-  }
-
-  template <class Message>
-  std::size_t decodeNext(const BagMessage& message, Decoded<Message>& decoded) const {
-    decode(file_, message, "", decoded.next());
-    return decoded.count - 1;
+  template <class Body>
+  void decodeInto(const BagMessage& message, Message& decoded) const {
+    if (!std::holds_alternative<Body>(decoded.body)) decoded.body.emplace<Body>();
+    decode(file_, message, "", std::get<Body>(decoded.body));
   }
 
   BagFile& file_;
@@ -144,13 +135,14 @@ class ChunkReader {
 /// kept as long as they have messages that are later than the beginning of the next one.
 class Delivery {
  public:
-  Delivery(const ImuBags& bags, const TopicSinks& take) : topics_(bags.topics), take_(take), gaps_(bags.gaps) {}
+  Delivery(const ImuBags& bags, const TopicSinks& take)
+      : num_sensors_(bags.topics.size()), take_(take), gaps_(bags.gaps) {}
 
   /// @return storage of a chunk that is done, to be used again.
   OpenChunk spare() { return std::exchange(spare_, {}); }
 
   void open(OpenChunk chunk) {
-    if (chunk.messages.empty()) return;
+    if (chunk.isDone()) return;
     open_.push_back(std::move(chunk));
     std::push_heap(open_.begin(), open_.end(), isLater);
   }
@@ -162,9 +154,9 @@ class Delivery {
       OpenChunk& chunk = open_.back();
       const bool is_only = open_.size() == 1;
       do {
-        if (!deliver(chunk, chunk.message())) return false;
-        if (++chunk.next == chunk.messages.size()) break;
-      } while (chunk.message().time < time && (is_only || !isLater(chunk, open_.front())));
+        if (!deliver(chunk.message())) return false;
+        ++chunk.next;
+      } while (!chunk.isDone() && chunk.message().time < time && (is_only || !isLater(chunk, open_.front())));
       putBack(chunk);
     }
     return true;
@@ -173,26 +165,25 @@ class Delivery {
  private:
   /// @param last  of those that are open: it goes back onto the heap, unless all its messages are delivered.
   void putBack(OpenChunk& last) {
-    if (last.next < last.messages.size()) return std::push_heap(open_.begin(), open_.end(), isLater);
+    if (!last.isDone()) return std::push_heap(open_.begin(), open_.end(), isLater);
     spare_ = std::move(last);
     open_.pop_back();
   }
 
-  bool deliver(const OpenChunk& chunk, const OpenChunk::Message& message) {
+  bool deliver(const Message& message) {
     Interruption::check();
     const Stamp recorded(static_cast<Stamp::rep>(message.time));
-    if (message.place >= topics_.size())
-      return !take_.temperature ||
-             take_.temperature(message.place - topics_.size(), chunk.temperatures.messages[message.at], recorded);
+    if (const auto* temperature = std::get_if<sensor_msgs::Temperature>(&message.body))
+      return !take_.temperature || take_.temperature(message.place - num_sensors_, *temperature, recorded);
     const auto give = [&](const auto& reading, const auto& take) {
       if (gaps_ != nullptr) gaps_->note(message.place, toStamp(reading.header.stamp));
       return take(message.place, reading, recorded);
     };
-    return topics_[message.place].is_force ? give(chunk.wrenches.messages[message.at], take_.wrench)
-                                           : give(chunk.imus.messages[message.at], take_.imu);
+    if (const auto* imu = std::get_if<sensor_msgs::Imu>(&message.body)) return give(*imu, take_.imu);
+    return give(std::get<geometry_msgs::WrenchStamped>(message.body), take_.wrench);
   }
 
-  const std::vector<BagTopic>& topics_;
+  std::size_t num_sensors_;
   const TopicSinks& take_;
   TopicGaps* gaps_;
   std::vector<OpenChunk> open_;  // a heap
