@@ -200,8 +200,8 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
   ChunkReader reader(file, bags, range);
   Delivery delivery(bags, take);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
-  // While the messages of a chunk are used, another thread reads and decodes the next, which takes a third of the time
-  // of `identify`. Without that thread it is done when the chunk is wanted.
+  // While the messages of a chunk are used, another thread reads and decodes the next, which takes a quarter of the
+  // time of `identify`. Without that thread it is done when the chunk is wanted.
   const std::launch launch = bags.reads_ahead ? std::launch::async : std::launch::deferred;
   const auto begin = [&](std::size_t at) {
     return std::async(launch, [&reader, &coming = chunks[at], chunk = delivery.spare()]() mutable {

@@ -155,7 +155,7 @@ inline Eigen::ArrayXcd wholeBlock(const BlockBand& band, const FourierIntegrals&
 inline std::vector<StrutBlock> sampledBlocks(const StrutEquations& equations, const SampledStrut& drive) {
   const BlockBand& band = equations.band();
   FourierIntegrals wheel(band, 1), body(band, 1);
-  FourierPhases phases(band);
+  FourierIntegrals::Phases phases(band);
   std::vector<StrutBlock> blocks;
   long half = 1;
   for (std::size_t i = 0; i < drive.body.size(); ++i) {

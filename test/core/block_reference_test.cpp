@@ -60,7 +60,7 @@ class ReferenceDrive {
     SlidingFriction friction(band.length / 4096.0, 2.0 * band.length);
     friction.setStrut(theta[0], theta[1], theta[kNumBlockParameters]);
     FourierIntegrals wheels(band, 2), bodies(band, 1);
-    FourierPhases phases(band);
+    FourierIntegrals::Phases phases(band);
     std::size_t next = 0;
     for (std::size_t i = 0; i < wheel.values.size(); ++i) {
       const double values[] = {wheel.values[i], friction.push(wheel.times[i], wheel.values[i])};

@@ -30,7 +30,7 @@ std::vector<double> unevenStamps(double spacing, double end, unsigned seed) {
 
 FourierIntegrals integrate(const std::vector<double>& stamps, const Exponentials& signal, double offset = 0.0) {
   FourierIntegrals stream(kBand, 1);
-  FourierPhases phases(kBand);
+  FourierIntegrals::Phases phases(kBand);
   for (const double t : stamps) {
     const double value = signal.at(t) + offset;
     stream.push(t, &value, phases);
@@ -126,7 +126,7 @@ TEST(FourierIntegrals, ThreeLostReadingsAreInterpolatedAndFourAreTheStraightLine
   const auto onlyAt132 = [&](double t) { return t == all[132] ? 1.0 : 0.0; };
   const auto block = [&](int lost, const std::function<double(double)>& signal) {
     FourierIntegrals stream(kBand, 1);
-    FourierPhases phases(kBand);
+    FourierIntegrals::Phases phases(kBand);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const double value = signal(all[i]);
       if (i < 133 || i >= 133 + static_cast<std::size_t>(lost)) stream.push(all[i], &value, phases);
@@ -145,7 +145,7 @@ TEST(FourierIntegrals, NothingIsInterpolatedBesideReadingsThatAreMuchCloser) {
   std::sort(stamps.begin(), stamps.end());
   const auto push = [&](double noise) {
     FourierIntegrals stream(kBand, 1);
-    FourierPhases phases(kBand);
+    FourierIntegrals::Phases phases(kBand);
     for (std::size_t i = 0; i < stamps.size(); ++i) {
       const double value = i == 133 ? noise : 0.0;
       stream.push(stamps[i], &value, phases);
@@ -168,7 +168,7 @@ TEST(FourierIntegrals, OfAHalfBlockWithAGapAreNone) {
   const double longest = kBand.length / 32.0;
   const auto wholeHalves = [&](double gap_from, double gap) {
     FourierIntegrals stream(kBand, 1);
-    FourierPhases phases(kBand);
+    FourierIntegrals::Phases phases(kBand);
     const double value = 1.0;
     for (int i = 0; i < 430; ++i)
       if (const double t = 0.01 * i; t <= gap_from || t > gap_from + gap - 1e-9) stream.push(t, &value, phases);
@@ -185,7 +185,7 @@ TEST(FourierIntegrals, OfAHalfBlockWithAGapAreNone) {
 TEST(FourierIntegrals, OfAStreamThatBeginsLateLackTheHalfBlockItBeginsIn) {
   const auto firstHalf = [&](double begin) {
     FourierIntegrals stream(kBand, 1);
-    FourierPhases phases(kBand);
+    FourierIntegrals::Phases phases(kBand);
     const double value = 1.0;
     for (int i = 0; i < 110; ++i) stream.push(begin + 0.01 * i, &value, phases);
     return stream.half(0);
@@ -196,7 +196,7 @@ TEST(FourierIntegrals, OfAStreamThatBeginsLateLackTheHalfBlockItBeginsIn) {
 
 TEST(FourierIntegrals, AreKeptForEightHalfBlocksAndForEveryChannelOnItsOwn) {
   FourierIntegrals both(kBand, 2), second(kBand, 1);
-  FourierPhases phases(kBand);
+  FourierIntegrals::Phases phases(kBand);
   for (int i = 0; i <= 1200; ++i) {
     const double t = 0.01 * i, values[] = {std::cos(5.0 * t), std::sin(3.0 * t)};
     both.push(t, values, phases);

@@ -71,7 +71,7 @@ TEST(Modulation, OfReadingsIsTheIntegralUpToTheTrapezoidRulesErrorAtTheEnds) {
   const Exponentials motion = severalSines();
   for (const double rate : {100.0, 200.0}) {
     FourierIntegrals stream(kBand, 1);
-    FourierPhases phases(kBand);
+    FourierIntegrals::Phases phases(kBand);
     for (int i = 0; i <= 2 * rate; ++i) {
       const double t = i / rate, value = motion.at(kStart + t);
       stream.push(t, &value, phases);

@@ -20,7 +20,7 @@ std::array<double, 4> lagrange(const std::array<double, 4>& at, double t) {
 
 }  // namespace
 
-void FourierPhases::turnTo(double time) {
+void FourierIntegrals::Phases::turnTo(double time) {
   if (time == time_) return;
   time_ = time;
   const double phase = -2.0 * M_PI * time / length_;
@@ -48,7 +48,7 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
   for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), static_cast<Eigen::Index>(channels));
 }
 
-void FourierIntegrals::push(double time, const double* values, FourierPhases& phases) {
+void FourierIntegrals::push(double time, const double* values, Phases& phases) {
   if (lost_ > 0) bridge(time, values, phases);
   held_.set(time, values);
   lost_ = is_empty_ ? 0 : lostBefore(time);
@@ -78,7 +78,7 @@ int FourierIntegrals::lostBefore(double time) {
   return lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
 }
 
-void FourierIntegrals::bridge(double next_time, const double* next, FourierPhases& phases) {
+void FourierIntegrals::bridge(double next_time, const double* next, Phases& phases) {
   const std::array<double, 4> at{before_.time, last_.time, held_.time, next_time};
   const double spacing = (at[2] - at[1]) / (lost_ + 1);
   // Beside a spacing that is much shorter the cubic would follow the noise of its two readings.
@@ -106,7 +106,7 @@ void FourierIntegrals::begin(const Reading& first) {
   is_empty_ = false;
 }
 
-void FourierIntegrals::addSpacing(const Reading& left, const Reading& right, FourierPhases& phases) {
+void FourierIntegrals::addSpacing(const Reading& left, const Reading& right, Phases& phases) {
   const long half = static_cast<long>(std::floor(right.time / half_length_));
   const double spacing = right.time - left.time;
   if (spacing > longest_spacing_) {
@@ -143,7 +143,7 @@ void FourierIntegrals::begin(long index) {
   imaginary_.setZero();
 }
 
-void FourierIntegrals::add(const Reading& reading, double weight, FourierPhases& phases) {
+void FourierIntegrals::add(const Reading& reading, double weight, Phases& phases) {
   phases.turnTo(reading.time - static_cast<double>(open_) * half_length_);
   for (std::size_t j = 0; j < channels_; ++j) {
     const double x = weight * (reading.values[j] - first_[j]);

@@ -11,24 +11,6 @@
 
 namespace suspension_health_monitor {
 
-/// e^(-j w_k t), k = 1 .. last + 1, of the newest time: streams that are read in step share it.
-class FourierPhases {
- public:
-  explicit FourierPhases(const BlockBand& band)
-      : length_(band.length), cosines_(band.last + 1), sines_(band.last + 1) {}
-
-  /// @param time  since the start of the half block [s].
-  void turnTo(double time);
-
-  const Eigen::ArrayXd& cosines() const { return cosines_; }
-  const Eigen::ArrayXd& sines() const { return sines_; }  ///< negative ones
-
- private:
-  double length_;
-  std::optional<double> time_;
-  Eigen::ArrayXd cosines_, sines_;
-};
-
 /// Fourier integrals of the channels of one stream over half blocks, by the trapezoid rule on the stream's own stamps:
 ///     I_k = sum of (x_i - x_0) e^(-j w_k (t_i - a)) (t_(i+1) - t_(i-1)) / 2 over a <= t_i < a + T/2,
 /// but that a spacing cut by an end of the half block belongs to either part by the straight line between its readings:
@@ -44,13 +26,30 @@ class FourierIntegrals {
  public:
   static constexpr int kHalves = 8;  ///< that are kept: a stream may run four blocks ahead of another
 
+  /// e^(-j w_k t), k = 1 .. last + 1, of the newest time: streams that are read in step share it.
+  class Phases {
+   public:
+    explicit Phases(const BlockBand& band) : length_(band.length), cosines_(band.last + 1), sines_(band.last + 1) {}
+
+    /// @param time  since the start of the half block [s].
+    void turnTo(double time);
+
+    const Eigen::ArrayXd& cosines() const { return cosines_; }
+    const Eigen::ArrayXd& sines() const { return sines_; }  ///< negative ones
+
+   private:
+    double length_;
+    std::optional<double> time_;
+    Eigen::ArrayXd cosines_, sines_;
+  };
+
   /// @param channels  values per reading.
   FourierIntegrals(const BlockBand& band, std::size_t channels);
 
   /// Takes in the next reading; stamps increase.
   /// @param time  since the start of half block 0 [s], not negative.
   /// @param phases  of the same band.
-  void push(double time, const double* values, FourierPhases& phases);
+  void push(double time, const double* values, Phases& phases);
 
   /// The next reading is the first one.
   void restart();
@@ -88,12 +87,12 @@ class FourierIntegrals {
   Half& slot(long index) { return halves_[static_cast<std::size_t>(index % kHalves)]; }
   int lostBefore(double time);  // number of readings, since last_
   // Takes in what was lost before held_, and held_.
-  void bridge(double next_time, const double* next, FourierPhases& phases);
+  void bridge(double next_time, const double* next, Phases& phases);
   void takeHeld();
   void begin(const Reading& first);
-  void addSpacing(const Reading& left, const Reading& right, FourierPhases& phases);
+  void addSpacing(const Reading& left, const Reading& right, Phases& phases);
   void begin(long index);
-  void add(const Reading& reading, double weight, FourierPhases& phases);  // to the open half block
+  void add(const Reading& reading, double weight, Phases& phases);  // to the open half block
   void finishUntil(long index);
 
   BlockBand band_;

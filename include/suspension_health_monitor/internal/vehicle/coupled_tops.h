@@ -56,7 +56,7 @@ class VehicleSpectra {
   BlockBand band_;
   VehicleChannels vehicle_;
   Modulation modulation_;
-  FourierPhases phases_;
+  FourierIntegrals::Phases phases_;
   std::vector<FourierIntegrals> wheels_, own_, body_, forces_, effects_;
   std::vector<std::size_t> own_of_;  // by strut, in own_
   Eigen::ArrayXcd channel_, derivative_;

@@ -56,7 +56,7 @@ class ImuSpectra {
 
   BlockBand band_;
   Modulation modulation_;
-  FourierPhases phases_;
+  FourierIntegrals::Phases phases_;
   std::vector<Stream> streams_;
   std::optional<Stamp> origin_;
   long next_half_ = 1;
