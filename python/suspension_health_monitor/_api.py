@@ -10,6 +10,7 @@ from ._plain import to_dict
 from ._progress import callback
 from ._recording import Recording, is_path, to_source
 from ._settings import array_keywords, assignments, files, simulator_keywords
+from ._tables import NAMES
 from ._types import Model, Option, Path, Progress
 
 __all__ = ["Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
@@ -174,7 +175,8 @@ class _Call:
     def __init__(self, name, drives, vehicle, options, arguments, progress):
         self._name, self._progress = name, progress
         bags = options.pop("bag", ())
-        kind, self._source = to_source((*drives, *((bags,) if is_path(bags) else bags)))
+        named = {key: options.pop(key) for key in NAMES & set(options)}
+        kind, self._source = to_source((*drives, *((bags,) if is_path(bags) else bags)), named)
         self.is_of_bags = kind == "bags"
         self._of_bags = {key: options.pop(key) for key in _OF_BAGS if key in options}
         self.is_of_vehicle = vehicle is not None
