@@ -18,9 +18,8 @@ def to_utc(name, values):
 
 
 def _instant(given):
-    """A datetime64; None: it is no date."""
     if isinstance(given, str):
-        return _instant_of_text(given.strip())
+        return instant_of_text(given.strip())
     if hasattr(given, "to_datetime64"):  # of pandas, which keeps nanoseconds
         return given.to_datetime64()
     if isinstance(given, datetime.datetime):
@@ -29,7 +28,8 @@ def _instant(given):
     return None
 
 
-def _instant_of_text(text):
+def instant_of_text(text):
+    """A datetime64; None: it is no date."""
     found = _ISO.fullmatch(text)
     try:
         return found and np.datetime64(found[1].replace(",", "."), "ns") - _offset(found[2])

@@ -7,7 +7,7 @@ from ._arrays import as_array
 
 _WAYS = [(stamps, "body", "wheel") for stamps in ("stamps", "time", "period")] + \
     [("stamps_body", "body", "stamps_wheel", "wheel")]
-_ALLOWED = "stamps, body, wheel (time or period for stamps) or stamps_body, body, stamps_wheel, wheel"
+_ALLOWED = "stamps (or time, or period), body, wheel or stamps_body, body, stamps_wheel, wheel"
 
 NAMES = {name for way in _WAYS for name in way} | {"stamps_road", "road", "across"}
 
@@ -42,8 +42,9 @@ def _of_frame(frame):
     index = getattr(frame, "index", None)
     if set(named) == {"body", "wheel"} and _is_time(index):
         named["stamps"] = index
-    return _by_name(named, f"a DataFrame has the columns {_listed(frame.columns)}, must have {_ALLOWED}; rename columns, "
-                           "or give them one by one")
+    of_index = "" if getattr(index, "name", None) is None else f" and the index {index.name}"
+    return _by_name(named, f"a DataFrame has the columns {_listed(frame.columns)}{of_index}, must have {_ALLOWED}; rename "
+                           "columns, or give them one by one")
 
 
 def _is_time(index):
