@@ -9,7 +9,7 @@ _FASTEST, _FEWEST = 1e-4, 10  # [s]: microseconds at 10 Hz and more are closer t
 
 
 def as_array(values):
-    """A NumPy array. Of a Series or an Index of pandas: NaN where a number is missing, UTC where instants have a zone."""
+    """A NumPy array. Of a Series or an Index of pandas: NaN where a number is missing; instants with a zone in UTC."""
     dtype = getattr(values, "dtype", None)
     kind = getattr(dtype, "kind", "O")
     if dtype is None or isinstance(dtype, np.dtype) or kind not in "fiuM":

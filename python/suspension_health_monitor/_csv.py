@@ -21,8 +21,8 @@ def read_csv(path: Path, *, time: Union[str, int] = "time", body: Union[str, int
              acceleration_unit: str = "m/s^2", delimiter: str = ",", decimal: str = ".") -> Recording:
     """A Recording from a CSV file, for all functions that take drives.
 
-    :param time, body, wheel: columns, by their names in the header, or by number from 0. time holds numbers, or dates as
-        of Recording. Lines before the header are skipped. An empty cell is no reading.
+    :param time, body, wheel: columns, by their names in the header, or by number from 0. time holds numbers, or dates
+        as of Recording. Lines before the header are skipped. An empty cell is no reading.
     :param time_wheel: the times of the wheel carrier's readings, if they are others.
     :param time_unit: of times that are numbers: "s", "ms", "us" or "ns".
     :param acceleration_unit: of body and wheel: "m/s^2", or "g", which is 9.80665 m/s^2.
@@ -41,13 +41,13 @@ def read_csv(path: Path, *, time: Union[str, int] = "time", body: Union[str, int
     lines = list(_lines(os.fspath(path), columns, delimiter, decimal))
     in_dates = lines and not _is_number(lines[0][1][0])
     to_time = _of_date if in_dates else lambda cell: _nanoseconds(cell, scale)
-    streams = []
+    arrays = []
     for k in (0, 2):
-        present = [(line, cells[k], cells[k + 1]) for line, cells in lines if cells[k + 1]]
-        stamps = [_read(path, line, columns[k], cell, to_time) for line, cell, _ in present]
-        values = [_read(path, line, columns[k + 1], cell, float) for line, _, cell in present]
-        streams += [np.array(stamps, dtype="datetime64[ns]"), factor * np.array(values, dtype=np.float64)]
-    return Recording(*streams)
+        cells = [(line, its[k], its[k + 1]) for line, its in lines if its[k + 1]]
+        stamps = [_read(path, line, columns[k], time, to_time) for line, time, _ in cells]
+        values = [_read(path, line, columns[k + 1], value, float) for line, _, value in cells]
+        arrays += [np.array(stamps, dtype="datetime64[ns]"), factor * np.array(values, dtype=np.float64)]
+    return Recording(*arrays)
 
 
 def _one_of(name, given, known):
@@ -79,8 +79,9 @@ def _below_header(path, rows, columns):
         places = [header.index(column) if column in names else column for column in columns if names <= set(header)]
         if places and max(places) < len(row):
             return places, rows if names or not any(map(_is_number, row)) else itertools.chain([row], rows)
-    raise ValueError(f"{path} has no line with the columns {', '.join(map(str, dict.fromkeys(columns)))}; its first line is "
-                     f"{', '.join(first)!r:.200} (time=, body=, wheel= and delimiter= name what a file has)")
+    wanted = ", ".join(map(str, dict.fromkeys(columns)))
+    raise ValueError(f"{path} has no line with the columns {wanted}; its first line is {', '.join(first)!r:.200} "
+                     "(time=, body=, wheel= and delimiter= name what a file has)")
 
 
 def _is_number(cell):
@@ -94,8 +95,8 @@ def _read(path, line, column, cell, convert):
     try:
         return convert(cell)
     except (ValueError, ArithmeticError):
-        what = "a number" if convert is float else "a number or, in all lines, a date such as 2026-05-01T12:00:00.25+02:00"
-        raise ValueError(f"{path}, line {line}: {column} = {cell!r}, must be {what}") from None
+        or_date = "" if convert is float else " or, in all lines, a date such as 2026-05-01T12:00:00.25+02:00"
+        raise ValueError(f"{path}, line {line}: {column} = {cell!r}, must be a number{or_date}") from None
 
 
 def _nanoseconds(cell, scale):

@@ -16,18 +16,19 @@ class Recording:
     Recording(stamps, body, wheel)                       both sensors read at the same instants
     Recording(stamps_body, body, stamps_wheel, wheel)    each at its own
     Recording(period, body, wheel)                       evenly, `period` seconds apart
-    Recording(frame)                                     a DataFrame with columns of these names; stamps may be its index
+    Recording(frame)                                     a DataFrame with columns so named; stamps may be its index
 
     The arrays may be given by their names, too; time is another name of stamps.
 
-    :param stamps: (n,) times of measurement, rising: floats in seconds, whole numbers in nanoseconds, datetimes, or dates
-        as text such as "2026-05-01T12:00:00.25+02:00"; without a zone they are in UTC.
-    :param body: (n,) acceleration of the body along the strut, up positive [m/s^2]; gravity may be in it. Arrays, lists
-        and Series are taken alike; the index of a Series says nothing.
+    :param stamps: (n,) times of measurement, rising: floats in seconds, whole numbers in nanoseconds, datetimes, or
+        dates as text such as "2026-05-01T12:00:00.25+02:00"; without a zone they are in UTC.
+    :param body: (n,) acceleration of the body along the strut, up positive [m/s^2]; gravity may be in it. Arrays,
+        lists and Series are taken alike; the index of a Series is ignored.
     :param wheel: (n,) or (m,) the same of the wheel carrier.
     :param road: (k,) the same where the tyre touches the road, with stamps_road (k,), of the tyre's identification.
     :param across: (n, 4) what else the body's IMU measures at its stamps: a_x, a_y [m/s^2], w_x, w_y [rad/s], with z up
-        along the strut (of a DataFrame the columns of these names); NaN: not measured. Only faults of that IMU are told by it.
+        along the strut (of a DataFrame the columns of these names); NaN: not measured. Only faults of that IMU are told
+        by it.
     :raises ValueError: naming the array: another shape or type, empty, lengths that differ, stamps that are not finite
         or go back. Readings that are NaN are no error: they are kept out and counted.
     """
@@ -89,8 +90,8 @@ def _bag(path):
     if os.path.isfile(path) and os.access(path, os.R_OK):
         with open(path, "rb") as file:
             if file.read(4) != b"#ROS":
-                raise ValueError(f"{path} is no bag; read_csv({path!r}) makes a drive of a CSV file, and what other files "
-                                 "hold is to be given as arrays")
+                raise ValueError(f"{path} is no bag: a CSV file is read by read_csv({path!r}), the contents of other "
+                                 "files are given as arrays")
     return path
 
 

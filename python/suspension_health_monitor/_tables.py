@@ -20,12 +20,13 @@ def is_frame(given):
 def in_order(arrays, named):
     """Three arrays, or four with stamps of each sensor, from what was given in order, by name, or as a DataFrame."""
     if arrays and named:
-        raise ValueError(f"{', '.join(named)} by name after {_listed(arrays)} without one, must all be given by name or none")
+        raise ValueError(f"{_listed(named)} are given by name and {_listed(arrays)} in order, must be all by name or "
+                         "all in order")
     if len(arrays) == 1 and is_frame(arrays[0]):
         return _of_frame(arrays[0])
     if len(arrays) in (3, 4):
         return arrays
-    return _by_name(named, f"{_listed(named or arrays)} given, must be {_ALLOWED}")
+    return _by_name(named, f"given: {_listed(named or arrays)}; must be {_ALLOWED}")
 
 
 def stacked(name, values, columns):
@@ -43,12 +44,13 @@ def _of_frame(frame):
     if set(named) == {"body", "wheel"} and _is_time(index):
         named["stamps"] = index
     of_index = "" if getattr(index, "name", None) is None else f" and the index {index.name}"
-    return _by_name(named, f"a DataFrame has the columns {_listed(frame.columns)}{of_index}, must have {_ALLOWED}; rename "
-                           "columns, or give them one by one")
+    return _by_name(named, f"a DataFrame has the columns {_listed(frame.columns)}{of_index}, must have {_ALLOWED}; "
+                           "rename columns, or give them one by one")
 
 
 def _is_time(index):
-    return getattr(index, "name", None) in ("time", "stamps") or getattr(index, "dtype", np.dtype(int)).kind in "mM"
+    of_dates = getattr(getattr(index, "dtype", None), "kind", "") in ("m", "M")
+    return of_dates or getattr(index, "name", None) in ("time", "stamps")
 
 
 def _by_name(named, refusal):

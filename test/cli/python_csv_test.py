@@ -122,7 +122,7 @@ def test_files_that_are_no_csv(tmp_path, made):
 @pytest.mark.parametrize("call", [shm.identify, shm.compare, shm.diagnose, shm.health])
 def test_a_csv_file_taken_for_a_bag_is_sent_to_read_csv(call, file):
     for given in ((file,), (str(file),), ([file, file],)):
-        with pytest.raises(ValueError, match=rf"^{re.escape(str(file))} is no bag; read_csv\('{re.escape(str(file))}'\) makes"):
+        with pytest.raises(ValueError, match=rf"^{re.escape(str(file))} is no bag: a CSV file is read by read_csv\('{re.escape(str(file))}'\)"):
             call(*given)
 
 

@@ -151,10 +151,10 @@ N = [0.0] * 30
 
 
 @pytest.mark.parametrize("call, words", [
-    (lambda: shm.identify(period=0.01, body=N), r"^period, body given, must be stamps \(or time, or period\), body, wheel or"),
-    (lambda: shm.identify(0.01, body=N, wheel=N), "^body, wheel by name after 0.01 without one, must all be given by name"),
-    (lambda: shm.identify(time=N, stamps=N, body=N, wheel=N), "^time, stamps, body, wheel given, must be"),
-    (lambda: shm.identify(road=N, stamps_road=N), "^nothing given, must be"),
+    (lambda: shm.identify(period=0.01, body=N), r"^given: period, body; must be stamps \(or time, or period\), body, wheel or"),
+    (lambda: shm.identify(0.01, body=N, wheel=N), "^body, wheel are given by name and 0.01 in order, must be all"),
+    (lambda: shm.identify(time=N, stamps=N, body=N, wheel=N), "^given: time, stamps, body, wheel; must be"),
+    (lambda: shm.identify(road=N, stamps_road=N), "^given: nothing; must be"),
     (lambda: shm.identify(pandas.DataFrame({"t": N, "body": N, "wheel": N})),
      "^a DataFrame has the columns t, body, wheel, must have stamps .*; rename columns"),
     (lambda: shm.identify(pandas.DataFrame({"t": N, "body": N, "wheel": N}).set_index("t")),
