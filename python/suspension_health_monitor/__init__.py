@@ -1,11 +1,12 @@
 """How healthy is a suspension, and is its model right? From accelerations of body and wheel carrier.
 
     import suspension_health_monitor as shm
-    found = shm.diagnose(stamps, body, wheel)     # NumPy arrays, or the path of a bag
+    found = shm.diagnose(stamps, body, wheel)     # arrays, Series, a DataFrame, or the path of a bag
     print(found.summary)
 
-identify, compare, diagnose, health: of recorded drives. StrutMonitor, VehicleMonitor: to push readings into as they
-come. effects, simulate: the catalogue, and drives to try things with. doc/python.md leads through it.
+identify, compare, diagnose, health: of recorded drives; read_csv reads one from a CSV file. StrutMonitor,
+VehicleMonitor: to push readings into as they come. effects, simulate: the catalogue, and drives to try things with.
+doc/python.md leads through it.
 
 Signs and units: SI; z up; readings are those along the strut, up positive, with or without gravity; travel is
 compression positive. Wrong use raises ValueError in the words of the command line.
@@ -21,14 +22,14 @@ __path__ = extend_path(__path__, __name__)
 
 __all__ = [
     "Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
-    "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify", "simulate",
-    "to_dict",
+    "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify", "read_csv",
+    "simulate", "to_dict",
 ]
 
 if TYPE_CHECKING:
     from ._api import (Baseline, Comparison, Diagnosis, Effect, Health, Identification, Recording, Simulation,
-                       StrutModel, StrutMonitor, VehicleMonitor, compare, diagnose, effects, health, identify, simulate,
-                       to_dict)
+                       StrutModel, StrutMonitor, VehicleMonitor, compare, diagnose, effects, health, identify, read_csv,
+                       simulate, to_dict)
 
 
 def __getattr__(name):

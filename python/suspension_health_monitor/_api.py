@@ -4,17 +4,19 @@ from typing import Any, Dict, List, Optional, Union, overload
 
 from . import _core, _docs, _html, _plain, _plots
 from ._core import Baseline, Comparison, Diagnosis, Effect, Health, Identification, Simulation, StrutModel
+from ._csv import read_csv
 from ._models import healthy_strut, library, model_file, to_model
 from ._monitors import StrutMonitor, VehicleMonitor
 from ._plain import to_dict
 from ._progress import callback
 from ._recording import Recording, is_path, to_source
 from ._settings import array_keywords, assignments, files, simulator_keywords
+from ._tables import NAMES
 from ._types import Model, Option, Path, Progress
 
 __all__ = ["Baseline", "Comparison", "Diagnosis", "Effect", "Health", "Identification", "Recording", "Simulation",
            "StrutModel", "StrutMonitor", "VehicleMonitor", "compare", "diagnose", "effects", "health", "identify",
-           "simulate", "to_dict"]
+           "read_csv", "simulate", "to_dict"]
 
 _OF_BAGS = ("sprung_topic", "unsprung_topic", "road_topic", "start", "end", "vehicle", "strut")
 
@@ -28,9 +30,9 @@ def identify(*drives: Any, vehicle: Optional[Path] = None, model: Model = None, 
              progress: Progress = None, **options: Option) -> Any:
     """Damping/mass b1 [1/s] and stiffness/mass b0 [1/s^2] of a strut from recorded drives.
 
-    :param drives: arrays, as Recording takes them: stamps (n,), body (n,), wheel (n,), or stamps_body, body,
-        stamps_wheel, wheel; or Recordings; or paths of bags, which bag= takes as well. All of one strut, taken one
-        after the other.
+    :param drives: arrays, as Recording takes them, in order or by name: stamps (n,), body (n,), wheel (n,), or
+        stamps_body, body, stamps_wheel, wheel; or Recordings or DataFrames; or paths of bags, which bag= takes as well.
+        All of one strut, taken one after the other.
     :param vehicle: of bags the path of the YAML file with the IMUs of a whole vehicle, instead of topics.
     :param model: with effects that are in the model of ls and la; a StrutModel, a dict or a model file.
     :param effects_file: path of a YAML file with laws of your own, which the model may have.
@@ -174,7 +176,8 @@ class _Call:
     def __init__(self, name, drives, vehicle, options, arguments, progress):
         self._name, self._progress = name, progress
         bags = options.pop("bag", ())
-        kind, self._source = to_source((*drives, *((bags,) if is_path(bags) else bags)))
+        named = {key: options.pop(key) for key in list(options) if key in NAMES}
+        kind, self._source = to_source((*drives, *((bags,) if is_path(bags) else bags)), named)
         self.is_of_bags = kind == "bags"
         self._of_bags = {key: options.pop(key) for key in _OF_BAGS if key in options}
         self.is_of_vehicle = vehicle is not None

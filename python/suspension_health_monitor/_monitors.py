@@ -5,9 +5,13 @@ import numpy as np
 
 from . import _core
 from ._models import healthy_strut, to_model
-from ._recording import Recording, check_lengths, to_readings, to_stamps
+from ._arrays import as_array, check_lengths, to_readings, to_stamps
+from ._recording import Recording
 from ._settings import array_keywords
+from ._tables import in_order, stacked
 from ._types import Array, Model, Option, Path
+
+_OF_IMU = ("a_x", "a_y", "a_z", "w_x", "w_y", "w_z")
 
 
 class StrutMonitor:
@@ -35,16 +39,17 @@ class StrutMonitor:
         if baseline is not None:
             self.set_baseline(baseline)
 
-    def push(self, *readings: Array, stamps_road: Optional[Array] = None, road: Optional[Array] = None) -> None:
-        """Takes in readings: push(stamps, body, wheel) or push(stamps_body, body, stamps_wheel, wheel), each an array
-        (n,) or a number; stamps in seconds, or whole numbers of nanoseconds. What comes later goes on from there.
+    def push(self, *readings: Array, stamps_road: Optional[Array] = None, road: Optional[Array] = None,
+             **named: Array) -> None:
+        """Takes in readings: push(stamps, body, wheel) or push(stamps_body, body, stamps_wheel, wheel), as of Recording,
+        each an array (n,) or a single reading. What comes later goes on from there.
         Long arrays cost what they cost in C++, and let other threads run meanwhile.
 
         :raises ValueError: as Recording; or once, if the options do not fit the sample period that was measured.
         """
-        arrays = [np.atleast_1d(np.asarray(each)) for each in readings]
+        arrays = [np.atleast_1d(as_array(each)) for each in in_order(readings, named)]
         if road is not None:
-            stamps_road, road = np.atleast_1d(np.asarray(stamps_road)), np.atleast_1d(np.asarray(road))
+            stamps_road, road = np.atleast_1d(as_array(stamps_road)), np.atleast_1d(as_array(road))
         self._core.push(Recording(*arrays, stamps_road=stamps_road, road=road)._readings())
 
     def set_model(self, model: Model) -> None:
@@ -108,7 +113,8 @@ class VehicleMonitor:
         its = [(name, None if at is None else tuple(to_readings(f"position of {name}", at, (3,))))
                for name, at in positions.items()]
         self.struts: Tuple[str, ...] = tuple(positions)
-        self._columns = (6 if any(at is not None for _, at in its) else 0) + sum(at is None for _, at in its)
+        self._columns = (_OF_IMU if any(at is not None for _, at in its) else ()) + \
+            tuple(name for name, at in its if at is None)
         keywords = array_keywords({**options, "sample_period": sample_period}, config, ["config", "struts"])
         self._core = _core.VehicleMonitor(its, keywords)
 
@@ -120,9 +126,11 @@ class VehicleMonitor:
             before these, if struts have positions, the six of the body's IMU: a_x, a_y, a_z [m/s^2], w_x, w_y, w_z
             [rad/s].
         :param wheel: (n, struts) of the wheel carriers [m/s^2].
+
+        Of a DataFrame the columns of these names are taken: of struts, and a_x, a_y, a_z, w_x, w_y, w_z.
         """
-        top = to_readings("body", body, ("n", self._columns))
-        carrier = to_readings("wheel", wheel, ("n", len(self.struts)))
+        top = to_readings("body", stacked("body", body, self._columns), ("n", len(self._columns)))
+        carrier = to_readings("wheel", stacked("wheel", wheel, self.struts), ("n", len(self.struts)))
         nanoseconds = check_lengths("stamps", to_stamps("stamps", stamps), "body", top)
         self._core.push(check_lengths("stamps", nanoseconds, "wheel", carrier), top, carrier)
 

@@ -11,7 +11,7 @@ def files():
         return importlib.import_module("._bags", __package__)
     except ImportError as error:
         raise ValueError("bags and YAML files are read by the module that is built with ROS; this one was built without"
-                         f" (cmake -S src/core), or ROS is not there: {error}") from error
+                         f" (pip install), or ROS is not there: {error}") from error
 
 
 def flattened(settings, group=""):

@@ -106,7 +106,10 @@ T = 0.01 * np.arange(30)
 @pytest.mark.parametrize("arrays, words", [
     ((), "nothing is given"),
     (([],), "no drive is given"),
-    ((T, N), "2 arrays, must be stamps, body, wheel"),
+    ((["2026-05-01T12:00"] * 29 + ["noon"], N, N), r"stamps\[29\] = 'noon', must be a datetime, or a date as text such as"),
+    ((["0.01"] * 30, N, N), r"stamps\[0\] = '0.01', must be .*; numbers must be in an array of numbers"),
+    ((["2026-13-01"] * 30, N, N), r"stamps\[0\] = '2026-13-01', must be"),
+    ((T, N), r"^given: ndarray of shape \(30,\), ndarray of shape \(30,\); must be stamps \(or time, or period\), body, wheel or"),
     ((T, N[:-1], N), "stamps has 30 and body 29 entries"),
     ((T, N, N[:-1]), "stamps has 30 and wheel 29 entries"),
     ((T, N, T[:-1], N), "stamps_wheel has 29 and wheel 30 entries"),
@@ -125,7 +128,9 @@ T = 0.01 * np.arange(30)
     ((T[:5], N[:5], N[:5]), r"cannot be measured: fewer than 10 .* of one of the sensors \(of 10 readings; 11 of each are enough\)"),
     ((0 * T, N, N), "the sample period cannot be measured"),
     ((T, N, N), "no regression row: .* samples in all: 30"),
-    ((3, 4), "2 arrays"),
+    ((3, 4), "^given: 3, 4; must be"),
+    ((N,), r"^given: ndarray of shape \(30,\); must be"),
+    ((None,), "^given: None; must be"),
     ((T, "drive.bag", N), "body is of type <U9")])
 def test_what_is_no_recording_is_refused(arrays, words):
     with pytest.raises(ValueError, match=words):

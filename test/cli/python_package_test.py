@@ -82,11 +82,6 @@ def test_help_tells_what_an_attribute_is():
     assert vars(_core.TimeBins)["drive"].__doc__ == "which of the drives, from 0"
 
 
-def test_stubs_are_installed_with_the_marker():
-    assert (STUB.parent / "py.typed").exists()
-    assert "py.typed" in (REPOSITORY / "setup.py").read_text() and "*.pyi" in (REPOSITORY / "setup.py").read_text()
-
-
 def test_without_ros_arrays_work_and_bags_say_why_not(tmp_path):
     """The files and the part that needs the library only, as cmake -S src/core puts them together."""
     folder = tmp_path / "suspension_health_monitor"
