@@ -7,8 +7,9 @@ if(BUILD_PYTHON AND SANITIZE)
   set(python_module_reason "the interpreter has no sanitizers")
 elseif(BUILD_PYTHON)
   find_program(PYTHON_EXECUTABLE python3)  # catkin has its own; pybind11 would look for old versions first
-  set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE})
-  find_package(Python3 QUIET COMPONENTS Interpreter Development)  # newer pybind11 wants what it defines
+  set(Python_EXECUTABLE ${PYTHON_EXECUTABLE})
+  # pybind11 from 2.6 on calls what this defines with Development; a newer catkin has looked for an Interpreter only.
+  find_package(Python 3 QUIET COMPONENTS Interpreter Development)
   find_package(pybind11 CONFIG QUIET)
   set(python_module_reason "pybind11 is not found (Debian, Ubuntu: pybind11-dev)")
   if(pybind11_FOUND)
