@@ -1,4 +1,5 @@
 """Without what only the fleet needs, a command says in one line what to install. Modules are hidden, as if not installed."""
+import re
 import subprocess
 import sys
 
@@ -6,6 +7,7 @@ import pytest
 
 from conftest import HANGS
 from imu_bag import REPOSITORY
+from suspension_health_monitor.fleet import needs
 
 SCRIPT = REPOSITORY / "python/suspension_fleet"
 WITHOUT = """import runpy, sys
@@ -15,6 +17,13 @@ sys.argv = [script, *arguments]
 runpy.run_path(script, run_name="__main__")
 """
 FLEET = "sqlite:///fleet.db"
+
+
+@pytest.mark.parametrize("document", ["doc/fleet.md", "scripts/install_dependencies"])
+def test_what_is_needed_is_written_down(document):
+    text = (REPOSITORY / document).read_text()
+    for package in [*needs.PACKAGES.values(), *needs.PACKAGES_OF_SOME.values()]:
+        assert re.search(rf"\b{package}\b", text), package
 
 
 def run_without(modules, folder, *arguments):
