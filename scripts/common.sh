@@ -30,9 +30,23 @@ sourceSetup() {
   set -u
 }
 
-# Ubuntu keeps ROS in /opt/ros; Debian's packages need no setup file.
+ros_folder=/opt/ros  # where Ubuntu keeps every ROS
+
+# The folder of the first ROS 1 in there: Noetic, or ROS One. Nothing on Debian, whose packages need no setup file.
+systemRos() {
+  local ros
+  for ros in "$ros_folder"/*; do
+    if [ -f "$ros/setup.bash" ] && [ -d "$ros/share/roscpp" ]; then  # ROS 2 has no roscpp
+      echo "$ros"
+      return
+    fi
+  done
+}
+
 sourceSystemRos() {
-  if [ -f /opt/ros/noetic/setup.bash ]; then sourceSetup /opt/ros/noetic/setup.bash; fi
+  local ros
+  ros=$(systemRos)
+  if [ -n "$ros" ]; then sourceSetup "$ros/setup.bash"; fi
 }
 
 jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}  # how many compilers at once

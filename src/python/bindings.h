@@ -56,7 +56,7 @@ class ResultClass : public pybind11::class_<Result> {
       : pybind11::class_<Result>(module, name, text) {
     if constexpr (boost::hana::Struct<Result>::value)
       boost::hana::for_each(boost::hana::accessors<Result>(), [this](const auto& field) {
-        addField(boost::hana::to<const char*>(boost::hana::first(field)), boost::hana::second(field));
+        this->addField(boost::hana::to<const char*>(boost::hana::first(field)), boost::hana::second(field));
       });
   }
 

@@ -68,7 +68,7 @@ const ros::master::V_TopicInfo& PublishedTopics::now() {
 }
 
 void Arrivals::note(const ros::Time& stamp) {
-  if (!last_) last_.emplace();
+  if (!last_) last_ = Last{};
   last_->by_clock = ros::Time::now();
   last_->by_wall = ros::WallTime::now();
   last_->lag.add(last_->by_clock.toSec() - stamp.toSec());

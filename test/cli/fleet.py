@@ -10,7 +10,7 @@ import pytest
 
 import conftest
 
-for module in ("distributed", "sqlalchemy"):
+for module in ("distributed", "scipy", "sqlalchemy"):
     pytest.importorskip(module)
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]

@@ -4,9 +4,11 @@ import importlib.util
 
 import numpy as np
 import pytest
-from scipy import integrate, stats
 
 import imu_bag
+
+pytest.importorskip("scipy")
+from scipy import integrate, stats  # noqa: E402
 from suspension_health_monitor.fleet import change_points, grid, history, laws, prognosis, student_t, wording
 from suspension_health_monitor.fleet.errors import UsageError
 from suspension_health_monitor.fleet.history import MONTH, YEAR, Event, Finding, StrutHistory

@@ -20,7 +20,9 @@ import conftest
 import imu_bag
 from fleet import session
 
-pytest.importorskip("sqlalchemy")
+for module in ("plotly", "scipy", "sqlalchemy"):
+    pytest.importorskip(module)
+from plotly.offline import get_plotlyjs  # noqa: E402
 from suspension_health_monitor.fleet import database, outlook, prognosis, report, report_data, show  # noqa: E402
 from suspension_health_monitor.fleet.command import main  # noqa: E402  after the reason to skip
 from suspension_health_monitor.fleet.drive import OK, Drive  # noqa: E402
@@ -354,7 +356,7 @@ def test_a_large_fleet_is_small_enough(fleet):
 
 def test_a_fleet_in_which_nothing_is_due_says_no_more_than_that(fleet, tmp_path):
     pairs = [pair for pair in outlook.in_order(fleet.histories, outlook.Options(), 1) if not pair[1].dated]
-    report.write(pairs, tmp_path)
+    report.write(pairs, get_plotlyjs(), tmp_path)
     page = browser.shown(tmp_path / "index.html", tmp_path / "profile")
     assert page.one("h1").text == "No strut is known to be due at the workshop"
 

@@ -5,7 +5,7 @@ import os
 import signal
 import sys
 
-from . import interruptions, report, scan_command, show, simulate_command
+from . import interruptions, needs, report, scan_command, show, simulate_command
 from .errors import FleetError
 from .options import not_empty
 from .wording import plain
@@ -62,6 +62,9 @@ def _run(options):
     except FleetError as error:
         _complain(options, error)
         return error.status
+    except ModuleNotFoundError as error:
+        _complain(options, needs.missing(error))
+        return FleetError.status
     return 0
 
 

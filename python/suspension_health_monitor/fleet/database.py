@@ -74,7 +74,7 @@ def connect(url, create=False):
     try:
         sqlite = url.startswith("sqlite:")
         engine = create_engine(url, **({"connect_args": {"timeout": LOCK_TIMEOUT}} if sqlite else {}))
-    except (ArgumentError, NoSuchModuleError, ImportError, ValueError) as error:
+    except (ArgumentError, NoSuchModuleError, ValueError) as error:
         without_password = re.sub(r":[^:@/]*@", ":***@", url)
         raise UsageError(f"--db {without_password}: {error}; must be a URL such as sqlite:///fleet.db or "
                          "postgresql://user@host/fleet") from error

@@ -5,7 +5,7 @@ import pathlib
 import shutil
 
 from . import outlook
-from .errors import FleetError, naming
+from .errors import naming
 from .report_data import page_data
 from .whole_file import write_whole
 
@@ -21,10 +21,11 @@ def add_options(report):
 
 
 def run(options):
+    from plotly.offline import get_plotlyjs  # who lacks it hears so before the work, not after it
     histories, its_options = outlook.read(options)
     folder = pathlib.Path(options.output)
     with _folder(folder):
-        write(outlook.in_order(histories, its_options, options.workers), folder)
+        write(outlook.in_order(histories, its_options, options.workers), get_plotlyjs(), folder)
     return f"wrote {folder / 'index.html'}\n"
 
 
@@ -42,12 +43,8 @@ def _folder(folder):
         raise
 
 
-def write(fleet, folder):
-    """:param fleet: [(StrutHistory, Prognosis or None)], the most urgent first."""
-    try:
-        from plotly.offline import get_plotlyjs
-    except ImportError as error:
-        raise FleetError("python3-plotly is not installed: scripts/install_dependencies brings it") from error
+def write(fleet, plotly, folder):
+    """:param fleet: [(StrutHistory, Prognosis or None)], the most urgent first. :param plotly: its script."""
     text = (PAGE / "index.html").read_text(encoding="utf-8")
     # "<" within a string would let a name end the script.
     data = json.dumps(page_data(fleet, folder), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
@@ -55,5 +52,5 @@ def write(fleet, folder):
     for mark, part in (("/*STYLE*/", (PAGE / "fleet.css").read_text(encoding="utf-8")), ("/*SCRIPTS*/", scripts),
                        ("/*DATA*/", data)):
         text = text.replace(mark, part, 1)
-    write_whole(folder / "plotly.min.js", get_plotlyjs())
+    write_whole(folder / "plotly.min.js", plotly)
     write_whole(folder / "index.html", text)

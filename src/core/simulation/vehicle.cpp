@@ -192,7 +192,7 @@ void changeKnownForces(OptionMap& values, Vehicle& vehicle) {
   for (auto& [name, settings] : takeGroups(values, "known_forces")) {
     requireName("known_forces/" + shortened(name), name);
     std::vector<KnownForce>& forces = vehicle.known_forces;
-    const auto same = [&, &name = name](const KnownForce& force) { return force.name == name; };
+    const auto same = [&, &wanted = name](const KnownForce& force) { return force.name == wanted; };
     auto force = std::find_if(forces.begin(), forces.end(), same);
     if (force == forces.end()) {
       force = forces.emplace(forces.end());

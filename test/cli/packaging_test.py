@@ -1,0 +1,126 @@
+"""The package as others build, install and release it: rosdep, bloom, rosdoc, continuous integration, Docker."""
+import fnmatch
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+import rospkg
+import yaml
+
+from conftest import HANGS
+from imu_bag import REPOSITORY
+
+MANIFEST = ElementTree.parse(REPOSITORY / "package.xml").getroot()
+SYSTEMS = ["ubuntu:focal", "ubuntu:jammy", "ubuntu:noble", "debian:bookworm"]
+CACHE_OF_ROSDEP = pathlib.Path.home() / ".ros/rosdep/sources.cache/index"
+LISTS = ("base.yaml", "python.yaml")
+
+
+def keys_of_no_ros_package():
+    keys = {element.text for element in MANIFEST if element.tag.endswith("depend")}
+    return sorted(keys - set(rospkg.RosPack().list()))
+
+
+def run(command, environment):
+    done = subprocess.run(command, env={**os.environ, **environment}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, timeout=HANGS)
+    return done.returncode, done.stdout
+
+
+@pytest.fixture(scope="module")
+def rosdep(tmp_path_factory):
+    """The environment in which rosdep knows rosdistro's lists: those of the folder ROSDEP_LISTS, or those that
+    `rosdep update` has fetched."""
+    if shutil.which("rosdep") is None:
+        pytest.skip("rosdep is not installed (Debian: python3-rosdep2)")
+    folder = os.environ.get("ROSDEP_LISTS")
+    if folder is None:
+        if not CACHE_OF_ROSDEP.exists():
+            pytest.skip("rosdep has no lists: run `rosdep update`, or name a folder that has rosdistro's "
+                        f"{' and '.join(LISTS)} in ROSDEP_LISTS")
+        return {"ROS_HOME": str(CACHE_OF_ROSDEP.parents[2])}
+    home, sources = (tmp_path_factory.mktemp(name) for name in ("home", "sources"))
+    lines = [f"yaml {(pathlib.Path(folder).resolve() / name).as_uri()}\n" for name in LISTS]
+    (sources / "10-lists.list").write_text("".join(lines))
+    environment = {"ROS_HOME": str(home), "ROSDEP_SOURCE_PATH": str(sources),
+                   "ROSDISTRO_INDEX_URL": (REPOSITORY / "rosdep/index-v4.yaml").as_uri()}
+    status, told = run(["rosdep", "update"], environment)
+    assert status == 0, told
+    return environment
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_rosdep_knows_every_key_that_is_no_ros_package(rosdep, system):
+    keys = keys_of_no_ros_package()
+    assert "eigen" in keys
+    status, told = run(["rosdep", "resolve", f"--os={system}", *keys], rosdep)
+    assert status == 0, told
+    assert sorted(re.findall(r"^#ROSDEP\[(.+)\]$", told, re.MULTILINE)) == keys
+
+
+def test_a_key_that_rosdep_does_not_know_is_told(rosdep):
+    status, told = run(["rosdep", "resolve", f"--os={SYSTEMS[-1]}", "no-such-key"], rosdep)
+    assert status != 0 and "no rosdep rule for 'no-such-key'" in told
+
+
+def test_package_xml_can_be_released():
+    assert re.fullmatch(r"\d+\.\d+\.\d+", MANIFEST.findtext("version"))
+    assert {url.get("type") for url in MANIFEST.findall("url")} == {"website", "repository", "bugtracker"}
+    assert re.fullmatch(r"\S+@\S+", MANIFEST.find("maintainer").get("email"))
+    package_version = pytest.importorskip("catkin_pkg.package_version")
+    changelog = pytest.importorskip("catkin_pkg.changelog").get_changelog_from_path(str(REPOSITORY))
+    assert package_version.get_forthcoming_label(changelog.rst) == "Forthcoming"
+
+
+def test_rosdoc_documents_the_public_headers_the_example_and_the_pages():
+    (doxygen,) = yaml.safe_load((REPOSITORY / MANIFEST.find("export/rosdoc").get("config")).read_text())
+    assert doxygen["builder"] == "doxygen"
+    in_workspace = pathlib.Path("/ws/src") / MANIFEST.findtext("name")
+    files = [path.relative_to(REPOSITORY) for pattern in doxygen["file_patterns"].split()
+             for path in REPOSITORY.rglob(pattern)]
+    documented = [path for path in files if not any(fnmatch.fnmatch(str(in_workspace / path), pattern)
+                                                    for pattern in doxygen["exclude_patterns"].split())]
+    assert {path.parts[0] for path in documented if len(path.parts) > 1} == {"doc", "example", "include"}
+    assert not any("internal" in path.parts for path in documented)
+
+
+def make_ros(folder, name, *packages):
+    """A folder of ROS as Ubuntu has it."""
+    (folder / name).mkdir(parents=True)
+    (folder / name / "setup.bash").write_text(f"export ROS_DISTRO={name}\n")
+    for package in packages:
+        (folder / name / "share" / package).mkdir(parents=True)
+
+
+@pytest.mark.parametrize("installed, found", [
+    ({"noetic": "roscpp"}, "noetic"), ({"one": "roscpp"}, "one"), ({"jazzy": "rclcpp", "one": "roscpp"}, "one"),
+    ({"jazzy": "rclcpp"}, ""), ({}, "")])
+def test_scripts_find_ros_1_of_any_name(tmp_path, installed, found):
+    for name, package in installed.items():
+        make_ros(tmp_path, name, package)
+    script = f"source {REPOSITORY}/scripts/common.sh; ros_folder={tmp_path}; sourceSystemRos; echo \"${{ROS_DISTRO:-}}\""
+    status, told = run(["bash", "-c", script], {"ROS_DISTRO": ""})
+    assert (status, told) == (0, found + "\n")
+
+
+def test_the_image_runs_the_demo_on_debian():
+    lines = (REPOSITORY / "Dockerfile").read_text().splitlines()
+    assert "FROM debian:bookworm" in lines
+    scripts = re.findall(r"scripts/[\w.]+", "\n".join(lines))
+    assert "scripts/install_dependencies" in scripts and scripts[-1] == "scripts/demo"
+    for script in scripts:
+        assert (REPOSITORY / script).is_file(), script
+    assert lines[-1].startswith('CMD ["scripts/demo", "--quick", "--no-install"')
+
+
+def test_continuous_integration_builds_where_ros_1_lives():
+    jobs = yaml.safe_load((REPOSITORY / ".github/workflows/industrial_ci.yml").read_text())["jobs"]
+    steps = [step for job in jobs.values() for step in job["steps"]]
+    industrial = [step for step in steps if "industrial_ci" in step.get("uses", "")]
+    assert [step["env"]["ROS_DISTRO"] for step in industrial] == ["noetic"]
+    commands = [step["run"] for step in steps if "run" in step]
+    assert "scripts/test" in commands
