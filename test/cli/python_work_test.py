@@ -86,8 +86,8 @@ except KeyboardInterrupt:
 
 @pytest.mark.parametrize("call", [
     "lambda told: shm.identify(*drive, integration_horizon=0.3, progress=told)",
-    "lambda told: shm.compare(*drive[:, :60000], progress=told)",
-    "lambda told: shm.diagnose(*drive[:, :60000], progress=told)",
+    "lambda told: shm.compare(*drive[:, :30000], progress=told)",
+    "lambda told: shm.diagnose(*drive[:, :20000], progress=told)",
     "lambda told: shm.health(*drive, progress=told)", "lambda told: shm.identify(bag, progress=told)",
     "lambda told: shm.health(bag, progress=told)", "lambda told: shm.StrutMonitor(on_report=told, every=5000).push(*drive)"])
 def test_control_c_ends_it(call, long_drive):
