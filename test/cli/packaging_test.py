@@ -190,7 +190,8 @@ def installed_files():
     parts = [f"_{part}.cpython-311-x86_64-linux-gnu.so" for part in re.findall(r"add_python_part\((\w+)", rules)]
     python, library = f"usr/lib/python3/dist-packages/{name}", "usr/lib/x86_64-linux-gnu"
     return [
-        f"usr/include/{name}/strut_monitor.h", f"usr/share/{name}/package.xml", f"usr/share/{name}/launch/monitor.launch",
+        f"usr/include/{name}/strut_monitor.h", f"usr/share/{name}/package.xml",
+        f"usr/share/{name}/launch/monitor.launch",
         *(f"usr/lib/{name}/{program}" for program in nodes + programs + scripts),
         f"{library}/lib{name}_core.so", f"{library}/lib{name}_nodelets.so",
         f"{library}/cmake/{name}/{name}Config.cmake", f"{library}/pkgconfig/{name}.pc",
@@ -215,3 +216,10 @@ def test_debian_links_programs_into_the_path():
     links = [path.read_text().split() for path in (REPOSITORY / "debian").glob("*.links")]
     assert sorted(link for _, link in links) == ["usr/bin/suspension_bag", "usr/bin/suspension_fleet"]
     assert {program for program, _ in links} <= set(installed_files())
+
+
+def test_nodelets_are_found_in_any_folder_of_libraries():
+    """pluginlib joins the path to a prefix; on Debian the library is in a folder of its architecture, which only the
+    dynamic linker knows."""
+    plugins = ElementTree.parse(REPOSITORY / "nodelet_plugins.xml").getroot()
+    assert plugins.get("path") == f"lib{MANIFEST.findtext('name')}_nodelets"
