@@ -8,7 +8,9 @@ import time
 
 import pytest
 
-import imu_bag
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy, as suspension_fleet
+
+import imu_bag  # noqa: E402
 
 sys.path.insert(0, str(imu_bag.REPOSITORY / "scripts"))
 
