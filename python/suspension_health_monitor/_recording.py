@@ -27,8 +27,8 @@ class Recording:
     :param wheel: (n,) or (m,) the same of the wheel carrier.
     :param road: (k,) the same where the tyre touches the road, with stamps_road (k,), of the tyre's identification.
     :param across: (n, 4) what else the body's IMU measures at its stamps: a_x, a_y [m/s^2], w_x, w_y [rad/s], with z up
-        along the strut (of a DataFrame the columns of these names); NaN: not measured. Only faults of that IMU are told
-        by it.
+        along the strut (of a DataFrame the columns of these names); NaN: not measured. It shows faults of that IMU,
+        and nothing else.
     :raises ValueError: naming the array: another shape or type, empty, lengths that differ, stamps that are not finite
         or go back. Readings that are NaN are no error: they are kept out and counted.
     """

@@ -39,7 +39,7 @@ void findTopic(const BagFile& file, const BagTopic& topic, const char* kind, std
                      " topics in this bag: " + listTopics<Message>(file.connections()));
 }
 
-Places findPlaces(const BagFile& file, const ImuBags& bags) {
+Places findPlaces(const BagFile& file, const ImuBags& bags, bool with_temperatures) {
   Places places;
   for (const BagConnection& connection : file.connections()) places[connection.id] = std::nullopt;
   for (std::size_t i = 0; i < bags.topics.size(); ++i)
@@ -47,7 +47,7 @@ Places findPlaces(const BagFile& file, const ImuBags& bags) {
                             : findTopic<sensor_msgs::Imu>(file, bags.topics[i], "Imu", i, places);
   for (std::size_t i = 0; i < bags.temperature_topics.size(); ++i)
     for (const std::uint32_t connection : connectionsOf<sensor_msgs::Temperature>(file, bags.temperature_topics[i]))
-      places[connection] = bags.topics.size() + i;
+      if (with_temperatures) places[connection] = bags.topics.size() + i;
   return places;
 }
 
@@ -71,14 +71,13 @@ Range toRange(const ImuBags& bags, std::uint64_t beginning) {
 /// A message that is wanted, decoded.
 struct Message {
   std::uint64_t time = 0;  // of its recording [ns]
-  std::size_t place = 0;   // of its topic, those of temperatures after those of sensors
+  std::size_t place = 0;   // of its topic, among those of sensors, or of temperatures
   std::variant<sensor_msgs::Imu, geometry_msgs::WrenchStamped, sensor_msgs::Temperature> body;
 };
 
 /// A chunk with messages that have not been delivered. Its storage is used again.
 struct OpenChunk {
   std::uint64_t position = 0;
-  ChunkContents contents;
   std::vector<Message> messages;
   std::size_t next = 0, end = 0;  // of `messages`
 
@@ -94,33 +93,34 @@ bool isLater(const OpenChunk& a, const OpenChunk& b) {
 /// Reads and decodes chunks of one bag.
 class ChunkReader {
  public:
-  ChunkReader(BagFile& file, const ImuBags& bags, const Range& range)
-      : file_(file), topics_(bags.topics), places_(findPlaces(file, bags)), range_(range) {}
+  ChunkReader(BagFile& file, const ImuBags& bags, const Range& range, bool with_temperatures)
+      : file_(file), topics_(bags.topics), places_(findPlaces(file, bags, with_temperatures)), range_(range) {}
 
   void read(const BagChunk& from, OpenChunk& chunk) {
-    file_.read(from, chunk.contents);
+    file_.read(from, contents_);
     chunk.position = from.position;
     chunk.next = chunk.end = 0;
-    for (const BagMessage& message : chunk.contents.messages) {
+    for (const BagMessage& message : contents_.messages) {
       const auto place = places_.find(message.connection);
       if (place == places_.end()) throw InputError(file_.path() + ": a message of a topic that the bag does not list");
       if (!place->second || !range_.contains(message.time)) continue;
       if (chunk.end == chunk.messages.size()) chunk.messages.emplace_back();
       Message& decoded = chunk.messages[chunk.end++];
-      decoded.time = message.time;
-      decoded.place = *place->second;
-      if (decoded.place >= topics_.size())
-        decodeInto<sensor_msgs::Temperature>(message, decoded);
-      else if (topics_[decoded.place].is_force)
-        decodeInto<geometry_msgs::WrenchStamped>(message, decoded);
+      const std::size_t topic = *place->second;
+      if (topic >= topics_.size())
+        decodeInto<sensor_msgs::Temperature>(message, topic - topics_.size(), decoded);
+      else if (topics_[topic].is_force)
+        decodeInto<geometry_msgs::WrenchStamped>(message, topic, decoded);
       else
-        decodeInto<sensor_msgs::Imu>(message, decoded);
+        decodeInto<sensor_msgs::Imu>(message, topic, decoded);
     }
   }
 
  private:
   template <class Body>
-  void decodeInto(const BagMessage& message, Message& decoded) const {
+  void decodeInto(const BagMessage& message, std::size_t place, Message& decoded) const {
+    decoded.time = message.time;
+    decoded.place = place;
     if (!std::holds_alternative<Body>(decoded.body)) decoded.body.emplace<Body>();
     decode(file_, message, "", std::get<Body>(decoded.body));
   }
@@ -129,14 +129,14 @@ class ChunkReader {
   const std::vector<BagTopic>& topics_;
   Places places_;
   Range range_;
+  ChunkContents contents_;  // of the newest chunk
 };
 
 /// Delivers the messages of one bag by recording time. Its chunks are opened in the order in which they begin and
 /// kept as long as they have messages that are later than the beginning of the next one.
 class Delivery {
  public:
-  Delivery(const ImuBags& bags, const TopicSinks& take)
-      : num_sensors_(bags.topics.size()), take_(take), gaps_(bags.gaps) {}
+  Delivery(const TopicSinks& take, TopicGaps* gaps) : take_(take), gaps_(gaps) {}
 
   /// @return storage of a chunk that is done, to be used again.
   OpenChunk spare() { return std::exchange(spare_, {}); }
@@ -174,7 +174,7 @@ class Delivery {
     Interruption::check();
     const Stamp recorded(static_cast<Stamp::rep>(message.time));
     if (const auto* temperature = std::get_if<sensor_msgs::Temperature>(&message.body))
-      return !take_.temperature || take_.temperature(message.place - num_sensors_, *temperature, recorded);
+      return take_.temperature(message.place, *temperature, recorded);
     const auto give = [&](const auto& reading, const auto& take) {
       if (gaps_ != nullptr) gaps_->note(message.place, toStamp(reading.header.stamp));
       return take(message.place, reading, recorded);
@@ -183,7 +183,6 @@ class Delivery {
     return give(std::get<geometry_msgs::WrenchStamped>(message.body), take_.wrench);
   }
 
-  std::size_t num_sensors_;
   const TopicSinks& take_;
   TopicGaps* gaps_;
   std::vector<OpenChunk> open_;  // a heap
@@ -197,8 +196,8 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
   const Range range = toRange(bags, chunks.front().start);
   chunks.erase(std::remove_if(chunks.begin(), chunks.end(), [&](const BagChunk& c) { return !range.overlaps(c); }),
                chunks.end());
-  ChunkReader reader(file, bags, range);
-  Delivery delivery(bags, take);
+  ChunkReader reader(file, bags, range, take.temperature != nullptr);
+  Delivery delivery(take, bags.gaps);
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
   // While the messages of a chunk are used, another thread reads and decodes the next, which takes a quarter of the
   // time of `identify`. Without that thread it is done when the chunk is wanted.

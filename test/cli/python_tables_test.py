@@ -88,7 +88,7 @@ def test_missing_numbers_are_nan(drive, frame):
 
 
 def as_text(instants, pattern):
-    """pattern: with {} where the instant is, which is told by the clocks of UTC + 2 h."""
+    """pattern: of text, with {} in place of the instant as clocks of UTC + 2 h show it."""
     return [pattern.format(each) for each in instants + np.timedelta64(2, "h")]
 
 

@@ -33,7 +33,7 @@ SearchResult searchInPaperDrive(const std::string& name, bool ramp, int seed) {
 
 TEST(EffectSearchOnPaperDrives, TheRampOfTheDampingIsNamedWithAndWithoutDataLoss) {
   for (const char* name : {"paper_clean", "paper_outliers"})
-    for (int seed = 1; seed <= 2; ++seed) {
+    for (int seed = 1; seed <= 3; ++seed) {
       const SearchResult result = searchInPaperDrive(name, true, seed);
       EXPECT_EQ(result.verdict, Verdict::kEffectFound) << name;
       EXPECT_EQ(result.selected, std::vector<std::string>{"damping_drift"}) << name;
@@ -43,7 +43,7 @@ TEST(EffectSearchOnPaperDrives, TheRampOfTheDampingIsNamedWithAndWithoutDataLoss
 }
 
 TEST(EffectSearchOnPaperDrives, DataLossAndEndStopsGiveNoFalseName) {
-  for (int seed = 1; seed <= 2; ++seed) {
+  for (int seed = 1; seed <= 3; ++seed) {
     EXPECT_EQ(searchInPaperDrive("paper_clean", false, seed).verdict, Verdict::kNothingMissing);
     EXPECT_EQ(searchInPaperDrive("paper_outliers", false, seed).verdict, Verdict::kNothingMissing);
     for (const bool ramp : {false, true}) {  // the stops are there: their names, and the ramp's, are true ones
