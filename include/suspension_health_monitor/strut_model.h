@@ -13,6 +13,14 @@ struct ActiveEffect {
   ForceEffect effect;
   double coefficient = 0.0;
   std::vector<double> shapes;  ///< one per effect.shapes
+
+  /// @return c f [m/s^2].
+  double force(const StrutMotion& motion) const { return coefficient * effect.force(motion, shapes.data()); }
+
+  /// @return the rate of the effect's memory; 0 if it has none.
+  Memory memoryRate(const StrutMotion& motion) const {
+    return effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : Memory();
+  }
 };
 
 /// A fault of the measurement, with its size.
@@ -48,8 +56,7 @@ struct StrutModel {
   double force(double travel, double travel_rate, double time, const Memory* memory) const {
     double sum = damping_to_mass * travel_rate + stiffness_to_mass * travel;
     for (std::size_t j = 0; j < effects.size(); ++j)
-      sum += effects[j].coefficient *
-             effects[j].effect.force({travel, travel_rate, time, memory[j]}, effects[j].shapes.data());
+      sum += effects[j].force({travel, travel_rate, time, memory[j]});
     return sum;
   }
 };

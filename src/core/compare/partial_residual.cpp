@@ -14,34 +14,24 @@ struct Sample {
   double seen = 0.0, law = 0.0;
 };
 
-double valueOf(const StrutMotion& motion, ForceVariable variable) {
+double StrutMotion::*memberOf(ForceVariable variable) {
   switch (variable) {
-    case ForceVariable::kTravel: return motion.travel;
-    case ForceVariable::kTravelRate: return motion.travel_rate;
+    case ForceVariable::kTravel: return &StrutMotion::travel;
+    case ForceVariable::kTravelRate: return &StrutMotion::travel_rate;
     case ForceVariable::kTime: break;
   }
-  return motion.time;
+  return &StrutMotion::time;
 }
 
-void setValue(StrutMotion& motion, ForceVariable variable, double value) {
-  switch (variable) {
-    case ForceVariable::kTravel: motion.travel = value; return;
-    case ForceVariable::kTravelRate: motion.travel_rate = value; return;
-    case ForceVariable::kTime: motion.time = value;
-  }
-}
-
-double forceOf(const ActiveEffect& active, const StrutMotion& motion) {
-  return active.coefficient * active.effect.force(motion, active.shapes.data());
-}
+double valueOf(const Sample& sample, ForceVariable variable) { return sample.motion.*memberOf(variable); }
 
 /// Whether the force of some samples changes when one of its variables is taken from other samples.
 bool dependsOn(const ActiveEffect& active, ForceVariable variable, const std::vector<Sample>& samples) {
   const std::size_t stride = std::max<std::size_t>(1, samples.size() / kCompareTuning.probes);
   for (std::size_t i = 0; i < samples.size(); i += stride) {
     StrutMotion other = samples[i].motion;
-    setValue(other, variable, valueOf(samples[(i + samples.size() / 2 + 1) % samples.size()].motion, variable));
-    const double force = samples[i].law, changed = forceOf(active, other);
+    other.*memberOf(variable) = valueOf(samples[(i + samples.size() / 2 + 1) % samples.size()], variable);
+    const double force = samples[i].law, changed = active.force(other);
     if (std::abs(changed - force) > kRounding * (std::abs(force) + std::abs(changed))) return true;
   }
   return false;
@@ -60,7 +50,7 @@ std::vector<ForceVariable> variablesOf(const ActiveEffect& active, const std::ve
 std::vector<double> edgesOver(const std::vector<Sample>& samples, ForceVariable variable, std::size_t bins) {
   std::vector<double> values;
   values.reserve(samples.size());
-  for (const Sample& sample : samples) values.push_back(valueOf(sample.motion, variable));
+  for (const Sample& sample : samples) values.push_back(valueOf(sample, variable));
   const auto [from, to] = coveredRange(std::move(values));
   std::vector<double> edges;
   for (std::size_t i = 0; i <= bins; ++i)
@@ -94,7 +84,7 @@ std::vector<PartialResidualBin> curveOver(const std::vector<Sample>& samples, Fo
   std::vector<PartialResidualBin> curve(kCompareTuning.bins + 1);  // the last one for what is outside
   for (const Sample& sample : samples)
     if (direction == 0 || direction * sample.motion.travel_rate > 0.0)
-      add(sample, curve[rangeOf(edges, valueOf(sample.motion, variable))]);
+      add(sample, curve[rangeOf(edges, valueOf(sample, variable))]);
   curve.pop_back();
   for (std::size_t i = 0; i < kCompareTuning.bins; ++i) {
     curve[i].at = 0.5 * (edges[i] + edges[i + 1]);
@@ -111,8 +101,8 @@ PartialResidualGrid gridOver(const std::vector<Sample>& samples, ForceVariable f
   // The last ones for what is outside.
   grid.cells.assign(kCompareTuning.columns + 1, std::vector<PartialResidualBin>(kCompareTuning.rows + 1));
   for (const Sample& sample : samples)
-    add(sample, grid.cells[rangeOf(grid.first_edges, valueOf(sample.motion, first))]
-                          [rangeOf(grid.second_edges, valueOf(sample.motion, second))]);
+    add(sample, grid.cells[rangeOf(grid.first_edges, valueOf(sample, first))]
+                          [rangeOf(grid.second_edges, valueOf(sample, second))]);
   grid.cells.pop_back();
   for (std::vector<PartialResidualBin>& column : grid.cells) {
     column.pop_back();
@@ -133,7 +123,7 @@ std::vector<Sample> samplesOf(const std::vector<ComparedSegment>& segments,
     for (std::size_t k = 0; k < segments[i].size(); ++k) {
       const StrutState& state = motion[i][k];
       Sample sample{{state.travel, state.travel_rate, segments[i].timeDriven(k), state.memory[index]}};
-      sample.law = forceOf(active, sample.motion);
+      sample.law = active.force(sample.motion);
       sample.seen = segments[i].missing_force[k] + sample.law;
       samples.push_back(sample);
     }
@@ -157,8 +147,8 @@ PartialResidual partialResidual(const ActiveEffect& active, const std::vector<Sa
 
 double PartialResidual::lawAt(double value) const {
   StrutMotion motion;
-  setValue(motion, variables.front(), value);
-  return forceOf(effect, motion);
+  motion.*memberOf(variables.front()) = value;
+  return effect.force(motion);
 }
 
 std::vector<PartialResidual> partialResiduals(const std::vector<ComparedSegment>& segments,

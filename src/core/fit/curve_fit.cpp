@@ -46,7 +46,7 @@ std::vector<ActiveEffect> takeMomentary(StrutModel& model) {
 
 double sumOf(const std::vector<ActiveEffect>& effects, const StrutMotion& motion) {
   double sum = 0.0;
-  for (const auto& [effect, coefficient, shapes] : effects) sum += coefficient * effect.force(motion, shapes.data());
+  for (const ActiveEffect& active : effects) sum += active.force(motion);
   return sum;
 }
 

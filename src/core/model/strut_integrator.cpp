@@ -25,18 +25,12 @@ Along slopeAt(const StrutModel& model, double time, double travel, double travel
   travel_rate -= body.velocity;
   Along slope;
   slope.position = body.velocity;
-  slope.velocity = model.damping_to_mass * travel_rate + model.stiffness_to_mass * travel;
   if constexpr (kWithEffects) {
-    for (std::size_t j = 0; j < model.effects.size(); ++j) {
-      const ActiveEffect& active = model.effects[j];
-      slope.velocity +=
-          active.coefficient * active.effect.force({travel, travel_rate, time, body.memory[j]}, active.shapes.data());
-    }
-    for (std::size_t j = 0; j < model.effects.size(); ++j) {
-      const auto& [effect, coefficient, shapes] = model.effects[j];
-      const StrutMotion motion{travel, travel_rate, time, body.memory[j], slope.velocity};
-      slope.memory[j] = effect.memory_rate ? effect.memory_rate(motion, shapes.data()) : Memory();
-    }
+    slope.velocity = model.force(travel, travel_rate, time, body.memory.data());
+    for (std::size_t j = 0; j < model.effects.size(); ++j)
+      slope.memory[j] = model.effects[j].memoryRate({travel, travel_rate, time, body.memory[j], slope.velocity});
+  } else {
+    slope.velocity = model.damping_to_mass * travel_rate + model.stiffness_to_mass * travel;
   }
   return slope;
 }
@@ -73,12 +67,12 @@ void integrate(const StrutModel& model, double time, double step, const WheelSte
 // How fast a memory changes by itself at some instant [1/s]: |dg/ds| where it forgets; where its two numbers swing,
 // twice their angular frequency, as that must last for many steps.
 double ownRate(const ActiveEffect& active, const StrutMotion& motion) {
-  const Memory before = active.effect.memory_rate(motion, active.shapes.data());
+  const Memory before = active.memoryRate(motion);
   const auto slopeBy = [&](double Memory::*number) {
     StrutMotion there = motion;
     const double difference = 1e-3 * std::abs(motion.memory.*number) + 1e-9;
     there.memory.*number += difference;
-    const Memory after = active.effect.memory_rate(there, active.shapes.data());
+    const Memory after = active.memoryRate(there);
     return Memory((after.s - before.s) / difference, (after.second - before.second) / difference);
   };
   const Memory by_s = slopeBy(&Memory::s);
@@ -187,7 +181,7 @@ void followMemories(const StrutModel& model, const StrutMotion& from, const Stru
     const auto rate = [&](double share, const Memory& value) {
       StrutMotion motion = between(from, to, share);
       motion.memory = value;
-      return active.effect.memory_rate(motion, active.shapes.data());
+      return active.memoryRate(motion);
     };
     for (int i = 0; i < parts; ++i) {  // Heun's method
       const Memory start = rate(static_cast<double>(i) / parts, memory[j]);
@@ -205,7 +199,7 @@ void keepLasting(const StrutModel& model, double rest, std::array<Memory, kMostE
       continue;
     }
     const double rate = ownRate(active, {}), gone = -std::expm1(-rate * rest);
-    const double at_rest = active.effect.memory_rate({}, active.shapes.data()) / rate;
+    const double at_rest = active.memoryRate({}) / rate;
     if (rate > 0.0) memory[j].s += gone * (at_rest - memory[j].s);
   }
 }

@@ -99,10 +99,8 @@ double shareOf(const EvaluatedModel& before, const EvaluatedModel& after, double
 
 /// A force that goes with the body's own motion, not with the strut's.
 bool actsOnBody(const ActiveEffect& active) {
-  const auto rate = [&](double acceleration) {
-    return active.effect.memory_rate({1.0, 1.0, 1.0, 0.5, acceleration}, active.shapes.data());
-  };
-  return active.effect.memory_rate && (rate(0.0).s != rate(1.0).s || rate(0.0).second != rate(1.0).second);
+  const auto rate = [&](double acceleration) { return active.memoryRate({1.0, 1.0, 1.0, 0.5, acceleration}); };
+  return rate(0.0).s != rate(1.0).s || rate(0.0).second != rate(1.0).second;
 }
 
 class Search {

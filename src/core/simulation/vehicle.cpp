@@ -19,7 +19,7 @@ int motionsOf(const Vehicle& vehicle) { return 1 + (vehicle.pitches() ? 1 : 0) +
 void requireHeld(const Vehicle& vehicle) {
   Eigen::MatrixXd pushes(vehicle.struts.size(), 3);
   for (std::size_t i = 0; i < vehicle.struts.size(); ++i)
-    pushes.row(static_cast<Eigen::Index>(i)) << 1.0, vehicle.struts[i].x, vehicle.struts[i].y;
+    pushes.row(i) << 1.0, vehicle.struts[i].x, vehicle.struts[i].y;
   if (rankOf(pushes) < motionsOf(vehicle))
     throw std::invalid_argument(
         "the struts do not hold the body, must be three that are not in a line, or all on one axis through the centre "

@@ -59,8 +59,8 @@ double longestStep(const Vehicle& vehicle) {
   double fastest = 0.0;  // square of an angular frequency: the body on its struts, a wheel between strut and tyre
   for (const VehicleStrut& strut : vehicle.struts) {
     const double mobility = vehicle.mobility(strut, strut);
-    const double stops = strut.end_stops ? strut.end_stops->stiffness_to_mass : 0.0,
-                 stiffness = strut.stiffness + stops / mobility;
+    const double stops = strut.end_stops ? strut.end_stops->stiffness_to_mass : 0.0;
+    const double stiffness = strut.stiffness + stops / mobility;
     const double of_wheel = strut.isRigid() ? 0.0 : (stiffness + strut.tyre_stiffness) / strut.wheel_mass;
     fastest = std::max(fastest, stiffness * mobility + of_wheel);
   }
@@ -74,17 +74,13 @@ VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
   Eigen::MatrixX2d wheels(n, 2);
   for (std::size_t i = 0; i < n; ++i) {
     const RoadPoint road = roads.at(i)(0.0);
-    const auto row = static_cast<Eigen::Index>(i);
-    lift.row(row) = liftAt(vehicle.struts[i]);
-    wheels.row(row) << road.height, road.rate;
+    lift.row(i) = liftAt(vehicle.struts[i]);
+    wheels.row(i) << road.height, road.rate;
     state[kWheels + i] = road.height;
     state[kWheels + n + i] = road.rate;
   }
   const Eigen::MatrixXd plane = pseudoInverse(lift) * wheels;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    state[static_cast<std::size_t>(i)] = plane(i, 0);
-    state[kBodyRates + static_cast<std::size_t>(i)] = plane(i, 1);
-  }
+  Eigen::Map<Eigen::MatrixXd>(state.data(), 3, 2) = plane;  // heights, then rates
   return state;
 }
 
@@ -133,17 +129,12 @@ const VehicleTruth& VehicleMotion::truth() {
 }
 
 void VehicleMotion::evaluate(const State& state, double t, State& derivative) {
-  for (std::size_t i = 0; i < kBodyRates; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    truth_.body[axis] = state[i];
-    truth_.body_rate[axis] = state[kBodyRates + i];
-  }
+  truth_.body = Eigen::Vector3d(state.data());
+  truth_.body_rate = Eigen::Vector3d(state.data() + kBodyRates);
   findForces(state, t);
   accelerateBody(t);
-  for (std::size_t i = 0; i < kBodyRates; ++i) {
-    derivative[i] = state[kBodyRates + i];
-    derivative[kBodyRates + i] = truth_.body_acceleration[static_cast<Eigen::Index>(i)];
-  }
+  Eigen::Map<Eigen::Vector3d>(derivative.data()) = truth_.body_rate;
+  Eigen::Map<Eigen::Vector3d>(derivative.data() + kBodyRates) = truth_.body_acceleration;
   accelerateWheels(state, t, derivative);
 }
 
@@ -164,8 +155,7 @@ void VehicleMotion::findForces(const State& state, double t) {
     double per_mass = truth.damping_to_mass * truth.travel_rate + truth.stiffness_to_mass * truth.travel;
     if (strut.end_stops) per_mass += strut.end_stops->forcePerMass(truth.travel);
     for (const ActiveEffect& active : strut.hidden) {
-      per_mass += active.coefficient * active.effect.force({truth.travel, truth.travel_rate, t, {memory[0], memory[1]}},
-                                                           active.shapes.data());
+      per_mass += active.force({truth.travel, truth.travel_rate, t, {memory[0], memory[1]}});
       memory += 2;
     }
     truth_.forces[i] = per_mass / own_mobility_[i];
@@ -204,9 +194,7 @@ void VehicleMotion::accelerateWheels(const State& state, double t, State& deriva
     derivative[kWheels + n + i] = strut.isRigid() ? 0.0 : truth.unsprung_acceleration;
     for (const ActiveEffect& active : strut.hidden) {
       const Memory now(state[memory], state[memory + 1]);
-      const StrutMotion motion{truth.travel, truth.travel_rate, t, now, truth.sprung_acceleration};
-      const ForceEffect::MemoryLaw& law = active.effect.memory_rate;
-      const Memory change = law ? law(motion, active.shapes.data()) : Memory();
+      const Memory change = active.memoryRate({truth.travel, truth.travel_rate, t, now, truth.sprung_acceleration});
       derivative[memory++] = change.s;
       derivative[memory++] = change.second;
     }
