@@ -129,7 +129,7 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
       segments.back().predicted = std::move(predicted);
     }
   const double mean = meanOf(residualsOf(segments));
-  const std::vector<const DriveSegment*> sources = segmentsOf(records);
+  const Segments sources = segmentsOf(records);
   for (std::size_t i = 0; i < segments.size(); ++i)
     addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
   return drives;

@@ -64,7 +64,7 @@ StopUse useOf(const Motion& motion, const ActiveEffect& stop, double direction) 
 }  // namespace
 
 TravelStatistics travelStatistics(const Records& records, const StrutModel& model) {
-  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  const Segments segments = segmentsOf(records);
   const auto initial = segments.empty() ? std::nullopt : estimateInitialStates(records, model);
   if (!initial) return {};
   Motion motion(segments.size());

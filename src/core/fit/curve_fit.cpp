@@ -173,12 +173,11 @@ class CurveFit {
 
   bool run() {
     fit_.model = rest_;
-    fit_.residuals.clear();
-    for (const DriveSegment* segment : segmentsOf(records_)) {
-      std::vector<double>& residuals = fit_.residuals.emplace_back();
-      if (!runFree(rest_, *segment, fit_.initial[fit_.residuals.size() - 1], residuals)) return false;
-      for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segment->sprung[k] - residuals[k] - offset_;
-    }
+    std::optional<Residuals> residuals = freeRunResiduals(rest_, segmentsOf(records_), fit_.initial);
+    if (!residuals) return false;
+    fit_.residuals = std::move(*residuals);
+    for (std::vector<double>& segment : fit_.residuals)
+      for (double& residual : segment) residual -= offset_;
     return true;
   }
 

@@ -18,7 +18,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-using Segments = std::vector<const DriveSegment*>;
 using Series = std::vector<std::vector<double>>;  // per segment
 
 constexpr Eigen::Index kReach = 16;  // samples to either side

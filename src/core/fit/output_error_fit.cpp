@@ -89,26 +89,20 @@ bool solve(ceres::Problem& problem, bool holds_model, Eigen::VectorXd& x, LocalS
 /// @return false if that does not help.
 bool tame(const Segments& segments, const std::vector<StrutState>& initial, StrutModel& model) {
   constexpr int most_halvings = 4;
-  std::vector<double> predicted;
-  for (int i = 0; i <= most_halvings; ++i) {
-    bool runs = true;
-    for (std::size_t s = 0; s < segments.size() && runs; ++s)
-      runs = runFree(model, *segments[s], initial.empty() ? StrutState{} : initial[s], predicted);
-    if (runs) return true;
+  for (int halved = 0; !freeRunResiduals(model, segments, initial); ++halved) {
+    if (halved == most_halvings) return false;
     for (ActiveEffect& active : model.effects) active.coefficient /= 2.0;
   }
-  return false;
+  return true;
 }
 
 /// Adds initial states and residuals.
 /// @param states  travel and travel rate that the segments begin with.
 bool addResiduals(const Segments& segments, std::vector<StrutState> states, ModelFit& fit) {
   carryMemories(fit.model, segments, states);
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    std::vector<double>& residuals = fit.residuals.emplace_back();
-    if (!runFree(fit.model, *segments[s], states[s], residuals)) return false;
-    for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segments[s]->sprung[k] - residuals[k];
-  }
+  std::optional<Residuals> residuals = freeRunResiduals(fit.model, segments, states);
+  if (!residuals) return false;
+  fit.residuals = std::move(*residuals);
   fit.initial = std::move(states);
   return true;
 }
@@ -137,12 +131,25 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
   return true;
 }
 
+std::optional<Residuals> freeRunResiduals(const StrutModel& model, const Segments& segments,
+                                          const std::vector<StrutState>& initial) {
+  Residuals all;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    std::vector<double>& residuals = all.emplace_back();
+    if (!runFree(model, *segments[s], initial[s], residuals)) return std::nullopt;
+    for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segments[s]->sprung[k] - residuals[k];
+  }
+  return all;
+}
+
 FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>& masks, const StrutModel& guess,
                           const std::vector<StrutState>& guessed_states) {
   const Segments segments = segmentsOf(records);
   StrutModel start = guess;
+  std::vector<StrutState> states = guessed_states;
+  states.resize(segments.size());
   if (!(start.stiffness_to_mass > 0.0)) return FitFailure::kNoSpring;
-  if (!tame(segments, guessed_states, start)) return FitFailure::kRunsAway;
+  if (!tame(segments, states, start)) return FitFailure::kRunsAway;
   const std::optional<DriveSizes> sizes = measureSizes(segments, masks, start);
   if (!sizes) return FitFailure::kRunsAway;
   const auto coefficient_scales = coefficientScales(start, *sizes);
@@ -151,12 +158,10 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   const Parameterization parameters(start, *coefficient_scales, scale);
   const double outlier = std::max(kOutlierScale * sizes->reading.residual, 1e-9 * sizes->reading.y);
   Eigen::VectorXd x = parameters.initial();
-  std::vector<StrutState> states(segments.size());
   LocalStates initial(segments.size(), {0.0, 0.0});
-  for (std::size_t s = 0; s < guessed_states.size(); ++s) {
-    states[s] = {guessed_states[s].travel, guessed_states[s].travel_rate, {}};
+  for (std::size_t s = 0; s < guessed_states.size(); ++s)
     initial[s] = {states[s].travel / scale.travel, states[s].travel_rate / scale.travel_rate};
-  }
+  for (StrutState& state : states) state.memory = {};
   CarriedMemories memories(segments, states);
   ceres::Problem problem;
   for (std::size_t s = 0; s < segments.size(); ++s)

@@ -14,8 +14,6 @@
 
 namespace suspension_health_monitor {
 
-using Segments = std::vector<const DriveSegment*>;
-
 /// @return the mask of a segment; none if all samples are fitted.
 inline const SampleMask* maskOf(const std::vector<SampleMask>& masks, std::size_t segment) {
   return masks.empty() ? nullptr : &masks[segment];

@@ -180,8 +180,8 @@ std::size_t DriveRecord::numSamples() const {
   return count;
 }
 
-std::vector<const DriveSegment*> segmentsOf(const Records& records) {
-  std::vector<const DriveSegment*> all;
+Segments segmentsOf(const Records& records) {
+  Segments all;
   for (const DriveRecord* record : records)
     for (const DriveSegment& segment : record->segments()) all.push_back(&segment);
   return all;
@@ -191,8 +191,7 @@ double restBetween(const DriveSegment& before, const DriveSegment& after) {
   return toSeconds(after.stamps.front() - before.stamps.back());
 }
 
-std::vector<std::vector<double>> seriesOf(const std::vector<const DriveSegment*>& segments,
-                                          std::vector<double> DriveSegment::*series) {
+std::vector<std::vector<double>> seriesOf(const Segments& segments, std::vector<double> DriveSegment::*series) {
   std::vector<std::vector<double>> all;
   for (const DriveSegment* segment : segments) all.push_back(segment->*series);
   return all;
@@ -219,7 +218,7 @@ Records pointersTo(const std::deque<DriveRecord>& records) {
 namespace {
 
 bool isKnown(const Records& records, BodyChannel channel) {
-  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  const Segments segments = segmentsOf(records);
   return std::none_of(segments.begin(), segments.end(), [&](const DriveSegment* segment) {
     return segment->body[static_cast<std::size_t>(channel)].empty();
   });

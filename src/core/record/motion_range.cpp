@@ -49,7 +49,7 @@ bool isFrequencyResponse(const ForceEffect& effect) {
 }  // namespace
 
 std::optional<MotionRange> rangeOfMotion(const Records& records) {
-  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  const Segments segments = segmentsOf(records);
   std::vector<std::size_t> sizes;
   for (const DriveSegment* segment : segments) sizes.push_back(segment->size());
   const std::size_t longest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());

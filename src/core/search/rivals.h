@@ -64,7 +64,7 @@ inline Polyline lastMemories(const ModelFit& fit, const Records& records) {
   Polyline points;
   std::vector<double> predicted;
   std::vector<StrutState> motion;
-  const std::vector<const DriveSegment*> segments = segmentsOf(records);
+  const Segments segments = segmentsOf(records);
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!runFree(fit.model, *segments[s], fit.initial[s], predicted, &motion)) continue;
     for (std::size_t k = 0; k < motion.size(); ++k)

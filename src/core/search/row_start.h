@@ -42,7 +42,7 @@ class RowStart {
   /// @param fit  the present model: its effects stay, with their shapes.
   RowStart(const Records& records, const HoldOut& held_out, const ModelFit& fit) : fit_(fit) {
     const double b0 = fit.model.stiffness_to_mass;
-    const std::vector<const DriveSegment*> segments = segmentsOf(records);
+    const Segments segments = segmentsOf(records);
     double samples = 0.0;
     for (const DriveSegment* segment : segments) samples += static_cast<double>(segment->size());
     std::vector<double> measured, weight;

@@ -155,17 +155,10 @@ std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) 
 }
 
 std::optional<ScreenedModel> Screening::asItIs(const StrutModel& model) const {
-  ScreenedModel screened;
-  screened.model = model;
-  std::vector<double> predicted;
-  for (const DriveSegment* segment : segmentsOf(records_)) {
-    if (!runFree(model, *segment, response_.fit().initial[screened.residuals.size()], predicted)) return std::nullopt;
-    for (std::size_t k = 0; k < predicted.size(); ++k) predicted[k] = segment->sprung[k] - predicted[k];
-    screened.residuals.push_back(predicted);
-  }
-  const Eigen::VectorXd left = joined(screened.residuals);
-  screened.training_gain = rows_.weight().dot(rows_.target().cwiseAbs2() - left.cwiseAbs2());
-  return screened;
+  std::optional<Residuals> residuals = freeRunResiduals(model, segmentsOf(records_), response_.fit().initial);
+  if (!residuals) return std::nullopt;
+  const double gain = rows_.weight().dot(rows_.target().cwiseAbs2() - joined(*residuals).cwiseAbs2());
+  return ScreenedModel{model, gain, std::move(*residuals)};
 }
 
 double Screening::surfaceGain() const {

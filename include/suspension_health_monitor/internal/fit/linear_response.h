@@ -59,7 +59,7 @@ class LinearResponse {
   std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]
   std::vector<std::size_t> ends_;
   std::vector<double> rests_;
-  std::vector<const DriveSegment*> segments_;
+  Segments segments_;
   ReadingSizes sizes_;  // of what is predicted
 };
 

@@ -37,6 +37,12 @@ double meanSquare(const Residuals& residuals);
 bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState state, std::vector<double>& predicted,
              std::vector<StrutState>* motion = nullptr);
 
+/// What a model leaves of the measurement when it runs freely over all segments.
+/// @param initial  states in which the segments begin.
+/// @return nothing if the model runs away.
+std::optional<Residuals> freeRunResiduals(const StrutModel& model, const Segments& segments,
+                                          const std::vector<StrutState>& initial);
+
 /// Residuals beyond this many (robust) standard deviations lose weight in fits and in comparisons of models.
 inline constexpr double kOutlierScale = 4.0;
 

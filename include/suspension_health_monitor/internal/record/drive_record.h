@@ -79,15 +79,16 @@ class DriveRecord {
 /// Drives of one vehicle and one period, as fits and searches take them.
 using Records = std::vector<const DriveRecord*>;
 
+using Segments = std::vector<const DriveSegment*>;
+
 /// @return the segments of all records, one after the other: the order of everything that is kept by segment.
-std::vector<const DriveSegment*> segmentsOf(const Records& records);
+Segments segmentsOf(const Records& records);
 
 /// @return the time from one segment to the next by their stamps [s]; below 0 if the clock began anew.
 double restBetween(const DriveSegment& before, const DriveSegment& after);
 
 /// @return one series of every segment, such as &DriveSegment::sprung.
-std::vector<std::vector<double>> seriesOf(const std::vector<const DriveSegment*>& segments,
-                                          std::vector<double> DriveSegment::*series);
+std::vector<std::vector<double>> seriesOf(const Segments& segments, std::vector<double> DriveSegment::*series);
 
 /// The drives as records, integrated in steps that follow the strut's fastest motion.
 /// @param model  a damped spring.
