@@ -17,7 +17,7 @@ namespace {
 std::optional<PredictionError> errorOf(const std::vector<double>& measured, const std::vector<double>& predicted) {
   using Series = Eigen::Map<const Eigen::ArrayXd>;
   if (measured.empty()) return std::nullopt;
-  const auto count = static_cast<Eigen::Index>(measured.size());
+  const Eigen::Index count = measured.size();
   const Series y(measured.data(), count);
   const double error = (y - Series(predicted.data(), count)).square().sum(), spread = (y - y.mean()).square().sum();
   if (!(spread > 0.0) || !std::isfinite(error)) return std::nullopt;

@@ -156,8 +156,7 @@ class FailureFinder {
 
   void findInTime(std::size_t first, std::size_t last) {
     if (findDrift(first, last)) return;
-    const std::vector<ResidualBin> bins(views_.time.begin() + static_cast<std::ptrdiff_t>(first),
-                                        views_.time.begin() + static_cast<std::ptrdiff_t>(last));
+    const std::vector<ResidualBin> bins(views_.time.begin() + first, views_.time.begin() + last);
     for (const BinRange& range : noisy(bins, kCompareTuning.contrast_in_time)) {
       FailureRegion region = regionOf(FailureView::kTime, range, bins[range.first].from, bins[range.last - 1].to);
       region.drive = views_.time[first].drive;
@@ -242,10 +241,10 @@ class FailureFinder {
     region.mean = surface.mean(row, column);
     region.share = counts(row, column) / numSamples();
     region.rmse = surface.rms(row, column);
-    region.from = surface.travel_edges[static_cast<std::size_t>(row)];
-    region.to = surface.travel_edges[static_cast<std::size_t>(row) + 1];
-    region.rate_from = surface.rate_edges[static_cast<std::size_t>(column)];
-    region.rate_to = surface.rate_edges[static_cast<std::size_t>(column) + 1];
+    region.from = surface.travel_edges[row];
+    region.to = surface.travel_edges[row + 1];
+    region.rate_from = surface.rate_edges[column];
+    region.rate_to = surface.rate_edges[column + 1];
     found_.push_back(region);
   }
 

@@ -195,7 +195,7 @@ ForceSurface mapForce(const ResidualSeries& series) {
   double explained = 0.0;
   for (int i = 0; i < kCompareTuning.force_cells; ++i)
     for (int j = 0; j < kCompareTuning.force_cells; ++j) {
-      const BinSums& cell = sums[static_cast<std::size_t>(i * kCompareTuning.force_cells + j)];
+      const BinSums& cell = sums[i * kCompareTuning.force_cells + j];
       surface.count(i, j) = static_cast<int>(cell.count);
       if (cell.count < 2.0) continue;
       surface.mean(i, j) = cell.missing / cell.count;

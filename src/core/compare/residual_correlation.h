@@ -80,7 +80,7 @@ inline std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const Resid
   const int lags = static_cast<int>(
       std::min(std::clamp(std::round(series.natural_period), kCompareTuning.fewest_lags, kCompareTuning.most_lags),
                count / 4.0));
-  const std::vector<double> through = impulseResponse(strut, series.period, 8 * static_cast<std::size_t>(lags));
+  const std::vector<double> through = impulseResponse(strut, series.period, 8 * lags);
   const double share = 1.0 / (1.0 + sumOfSquares(through));  // of the floor's mean square: the body's own sensor
 
   ResidualCorrelation whiteness, cross_correlation;
@@ -109,8 +109,7 @@ inline std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const Resid
   for (int lag = -lags; lag <= lags; ++lag) {
     // Noise on w'' is in the model's input with its own sign, so in the residual with the opposite one.
     const double noise_square = share * noise_floor * noise_floor;
-    const double left =
-        lag > 0 && sizes > 0.0 ? -noise_square * through[static_cast<std::size_t>(lag) - 1] / sizes : 0.0;
+    const double left = lag > 0 && sizes > 0.0 ? -noise_square * through[lag - 1] / sizes : 0.0;
     addLag(lag, series.period, cross(lag), left, cross_band, cross_correlation);
   }
   countOutside(cross_band, 1.0 + wheel_squares, cross_correlation);

@@ -34,9 +34,8 @@ TimeHistogram histogramOf(const Motion& motion, double StrutState::*which) {
   const auto binOf = [&](double value) { return static_cast<int>(std::floor(value / width)); };
   const int first = std::min(0, binOf(values.minCoeff())), last = std::max(0, binOf(values.maxCoeff()) + 1);
   for (int i = first; i <= last; ++i) histogram.edges.push_back(i * width);
-  histogram.shares.resize(static_cast<std::size_t>(last - first));
-  for (const double value : values)
-    histogram.shares[static_cast<std::size_t>(binOf(value) - first)] += 1.0 / static_cast<double>(values.size());
+  histogram.shares.resize(last - first);
+  for (const double value : values) histogram.shares[binOf(value) - first] += 1.0 / static_cast<double>(values.size());
   histogram.compression = directionOf(values);
   histogram.rebound = directionOf(-values);
   return histogram;

@@ -119,8 +119,7 @@ class CurveFit {
     while (last + 1 < stddev.size() && isKnown(last + 1)) ++last;
     if (first == last) return {};
     const auto part = [&](const std::vector<double>& all) {
-      return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
-                                 all.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+      return std::vector<double>(all.begin() + first, all.begin() + last + 1);
     };
     return {part(law.nodes), part(law.values), part(stddev)};
   }
@@ -162,10 +161,10 @@ class CurveFit {
     const double period = records_.front()->period();
     const auto skipped = std::max(kWhitening, static_cast<Eigen::Index>(settlingTime(slopes_) / period));
     cluster_ = static_cast<Eigen::Index>(kPeriodsOfCluster * 2.0 * M_PI / std::sqrt(slopes_[kSpring]) / period);
-    counts_.setOnes(static_cast<Eigen::Index>(ends.back()));
+    counts_.setOnes(ends.back());
     Eigen::Index begin = 0;
     for (const std::size_t end : ends) {
-      const Eigen::Index size = static_cast<Eigen::Index>(end) - begin;
+      const Eigen::Index size = end - begin;
       counts_.segment(begin, std::min(size, skipped)).setZero();
       begin += size;
     }
@@ -193,7 +192,7 @@ class CurveFit {
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(response.numSamples(), size());
     for (Eigen::Index k = 0; k < columns.rows(); ++k)
       for (const std::size_t w : {kDamper, kSpring})
-        laws_[w].forNodesAt(variableOf(response.motion()[static_cast<std::size_t>(k)], w),
+        laws_[w].forNodesAt(variableOf(response.motion()[k], w),
                             [&](std::size_t i, double weight) { columns(k, column(w, i)) = weight; });
     for (Eigen::Index j = 0; j + 1 < size(); ++j) columns.col(j) = response.respond(columns.col(j));
     columns.col(size() - 1).setOnes();

@@ -33,7 +33,7 @@ class DecayWindowSums {
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(count, 3);  // int u, int int u, z''
     double last = 0.0;
     for (Eigen::Index i = 0; i < count; ++i) {
-      const CornerSample& sample = samples[first + static_cast<std::size_t>(i)];
+      const CornerSample& sample = samples[first + i];
       const double u = sample.unsprung_acceleration - sample.sprung_acceleration;
       if (i > 0) {
         columns(i, 0) = columns(i - 1, 0) + 0.5 * period_ * (last + u);
@@ -58,7 +58,7 @@ class DecayWindowSums {
 };
 
 std::vector<DecayWindow> decayWindowsOf(const std::vector<Drive>& drives, double period, std::size_t count) {
-  const DecayWindowSums sums(period, static_cast<Eigen::Index>(count));
+  const DecayWindowSums sums(period, count);
   std::vector<DecayWindow> windows;
   for (const Drive& drive : drives)
     for (std::size_t first = 0; first + count <= drive.samples.size();
@@ -81,7 +81,7 @@ StrutEstimate estimateFromFreeDecays(const std::vector<Drive>& drives) {
   if (windows.empty()) return estimate;
   std::vector<double> noises;
   for (const DecayWindow& window : windows) noises.push_back(window.noise);
-  const auto tenth = noises.begin() + static_cast<std::ptrdiff_t>(noises.size() / 10);
+  const auto tenth = noises.begin() + noises.size() / 10;
   std::nth_element(noises.begin(), tenth, noises.end());
   // An rms of n values scatters by 1 / sqrt(2 n); the tenth is 1.3 of that below the mean.
   const double most = *tenth * (1.0 + (1.3 + kLikely) / std::sqrt(2.0 * static_cast<double>(count)));

@@ -15,7 +15,7 @@ constexpr std::size_t kSettlingPeriods = 2;  // natural periods
 
 PairedTest testPaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
   using Series = Eigen::Map<const Eigen::ArrayXd>;
-  const auto count = static_cast<Eigen::Index>(before.size());
+  const Eigen::Index count = before.size();
   const Series whole(before.data(), count);
   const Eigen::ArrayXd removed = whole - Series(after.data(), count);
   const double sum = removed.sum(), total = whole.sum(), n = static_cast<double>(count);

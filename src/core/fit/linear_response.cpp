@@ -71,7 +71,7 @@ Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>&
                            const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends,
                            const std::vector<double>& rests) {
   const StrutModel alone{0.0, 0.0, {{effect, 1.0, shapes}}, {}};
-  Eigen::VectorXd force(static_cast<Eigen::Index>(motion.size()));
+  Eigen::VectorXd force(motion.size());
   std::array<Memory, kMostEffects> memory{};
   std::size_t k = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -80,7 +80,7 @@ Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>&
     for (; k < end; ++k) {
       StrutMotion here = motion[k];
       here.memory = memory[0];
-      force[static_cast<Eigen::Index>(k)] = effect.force(here, shapes.data());
+      force[k] = effect.force(here, shapes.data());
       if (k + 1 < end) followMemories(alone, here, motion[k + 1], motion[k + 1].time - here.time, memory);
     }
   }
@@ -90,11 +90,9 @@ Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>&
 Eigen::MatrixXd forcesAlong(const StrutModel& model, const std::vector<StrutMotion>& motion,
                             const std::vector<std::size_t>& ends, const std::vector<double>& rests) {
   Eigen::MatrixXd columns(motion.size(), 2 + model.effects.size());
-  for (std::size_t k = 0; k < motion.size(); ++k)
-    columns.row(static_cast<Eigen::Index>(k)).head<2>() << motion[k].travel_rate, motion[k].travel;
+  for (std::size_t k = 0; k < motion.size(); ++k) columns.row(k).head<2>() << motion[k].travel_rate, motion[k].travel;
   for (std::size_t j = 0; j < model.effects.size(); ++j)
-    columns.col(2 + static_cast<Eigen::Index>(j)) =
-        forceAlong(model.effects[j].effect, model.effects[j].shapes, motion, ends, rests);
+    columns.col(2 + j) = forceAlong(model.effects[j].effect, model.effects[j].shapes, motion, ends, rests);
   return columns;
 }
 
@@ -107,41 +105,39 @@ Eigen::VectorXd LinearResponse::respond(const Eigen::VectorXd& force) const {
     double x = 0.0, rate = 0.0;
     const std::size_t begin = k, end = begin + segment->size();
     for (; k < end; ++k) {
-      const double f = force[static_cast<Eigen::Index>(k)];
+      const double f = force[k];
       if (k > begin) {
         // x1 = x + half (rate + rate1), rate1 = rate + half (acceleration + acceleration1)
-        const double acceleration = -response[static_cast<Eigen::Index>(k) - 1];
+        const double acceleration = -response[k - 1];
         const double known_x = x + half * rate, known_rate = rate + half * acceleration;
         rate = (known_rate - half * (slope_travel_[k] * known_x + f)) /
                (1.0 + half * (slope_rate_[k] + half * slope_travel_[k]));
         x = known_x + half * rate;
       }
-      response[static_cast<Eigen::Index>(k)] = slope_travel_[k] * x + slope_rate_[k] * rate + f;
+      response[k] = slope_travel_[k] * x + slope_rate_[k] * rate + f;
     }
-    auto passed = response.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
+    auto passed = response.segment(begin, end - begin);
     passed = lowPassed(segment->taps, passed);
   }
   return response;
 }
 
 Eigen::MatrixXd LinearResponse::readingSlopes(const MeasurementEffect& effect) const {
-  const auto count = static_cast<Eigen::Index>(effect.coefficients.size());
+  const std::size_t count = effect.coefficients.size();
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(numSamples(), count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const double step = effect.scale(sizes_, static_cast<std::size_t>(i));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double step = effect.scale(sizes_, i);
     if (!std::isfinite(step)) continue;  // a channel that is not known
-    std::vector<double> coefficients(effect.coefficients.size(), 0.0);
+    std::vector<double> coefficients(count, 0.0);
     std::size_t begin = 0;
     for (std::size_t s = 0; s < ends_.size(); ++s) {
-      std::vector<double> before(predicted_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                 predicted_.begin() + static_cast<std::ptrdiff_t>(ends_[s]));
+      std::vector<double> before(predicted_.begin() + begin, predicted_.begin() + ends_[s]);
       std::vector<double> after = before;
-      coefficients[static_cast<std::size_t>(i)] = -step;
+      coefficients[i] = -step;
       effect.apply(coefficients.data(), segments_[s]->body, period_, before);
-      coefficients[static_cast<std::size_t>(i)] = step;
+      coefficients[i] = step;
       effect.apply(coefficients.data(), segments_[s]->body, period_, after);
-      for (std::size_t k = 0; k < after.size(); ++k)
-        slopes(static_cast<Eigen::Index>(begin + k), i) = (after[k] - before[k]) / (2.0 * step);
+      for (std::size_t k = 0; k < after.size(); ++k) slopes(begin + k, i) = (after[k] - before[k]) / (2.0 * step);
       begin = ends_[s];
     }
   }

@@ -66,10 +66,10 @@ struct Regression {
 /// z'' from its neighbours, from the wheel's motion during the steps around it (which stands for w''), and a constant.
 /// @param series  z'' per segment.
 Regression interpolated(const Segments& segments, const std::vector<Place>& places, const Series& series) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(places.size()), kTerms);
+  Eigen::MatrixXd rows(places.size(), kTerms);
   Eigen::VectorXd measured(rows.rows());
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-    const auto [index, k] = places[static_cast<std::size_t>(r)];
+    const auto [index, k] = places[r];
     const DriveSegment& segment = *segments[index];
     const double* const y = series[index].data() + k;
     for (Eigen::Index i = 0; i < kReach; ++i) {
@@ -77,8 +77,7 @@ Regression interpolated(const Segments& segments, const std::vector<Place>& plac
       rows(r, kReach + i) = y[1 + i];
     }
     for (Eigen::Index i = 0; i < 2 * kReach; ++i) {
-      const auto step =
-          (segment.lead() + static_cast<std::size_t>(k - kReach + i)) * static_cast<std::size_t>(segment.steps);
+      const auto step = (segment.lead() + k - kReach + i) * segment.steps;
       rows(r, 2 * kReach + i) = segment.wheel[step].end_velocity / segment.period;
     }
     rows(r, kTerms - 1) = 1.0;
@@ -119,12 +118,11 @@ class FreeFormLaws {
 
   /// What the laws do to an interpolation, which sees the same forces in the neighbours.
   Eigen::MatrixXd interpolated(const std::vector<Place>& places, const Eigen::VectorXd& interpolation) const {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()), kLawTerms);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(places.size(), kLawTerms);
     for (Eigen::Index r = 0; r < rows.rows(); ++r) {
-      const auto& [segment, sample] = places[static_cast<std::size_t>(r)];
+      const auto& [segment, sample] = places[r];
       const auto add = [&, segment = segment, sample = sample](Eigen::Index offset, double factor) {
-        at(segment, static_cast<std::size_t>(sample + offset),
-           [&](Eigen::Index term, double value) { rows(r, term) += factor * value; });
+        at(segment, sample + offset, [&](Eigen::Index term, double value) { rows(r, term) += factor * value; });
       };
       add(0, 1.0);
       for (Eigen::Index i = 0; i < kReach; ++i) {

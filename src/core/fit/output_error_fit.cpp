@@ -110,7 +110,7 @@ bool addResiduals(const Segments& segments, std::vector<StrutState> states, Mode
 template <class Value>
 void cutEnds(std::size_t count, std::vector<Value>& values) {
   values.resize(values.size() - count);
-  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
+  values.erase(values.begin(), values.begin() + count);
 }
 
 }  // namespace

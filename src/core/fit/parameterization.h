@@ -128,7 +128,7 @@ class Parameterization {
   /// @return d(SI value)/dx at x.
   Eigen::VectorXd slopes(const double* x) const {
     Eigen::VectorXd slope(size());
-    for (int i = 0; i < size(); ++i) slope[i] = numbers_[static_cast<std::size_t>(i)].slope(x[i]);
+    for (int i = 0; i < size(); ++i) slope[i] = numbers_[i].slope(x[i]);
     return slope;
   }
 

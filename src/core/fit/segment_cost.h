@@ -55,8 +55,7 @@ class SegmentCost : public ceres::CostFunction {
     state.travel_rate = local[1] * scale_.travel_rate;
     std::vector<double> predicted;
     if (!runFree(model, segment_, state, predicted)) return false;
-    for (std::size_t i = 0; i < used_.size(); ++i)
-      residuals[static_cast<Eigen::Index>(i)] = segment_.sprung[used_[i]] - predicted[used_[i]];
+    for (std::size_t i = 0; i < used_.size(); ++i) residuals[i] = segment_.sprung[used_[i]] - predicted[used_[i]];
     return true;
   }
 

@@ -65,7 +65,7 @@ double HorizonIntegral::update(const DelayLine& signal) {
   }
   double correction = -0.5 * end;
   for (int k = 1; k <= lateness_; ++k)
-    correction += corrections_[static_cast<std::size_t>(k) - 1] * (signal.at(lateness_ + k) - signal.at(lateness_ - k));
+    correction += corrections_[k - 1] * (signal.at(lateness_ + k) - signal.at(lateness_ - k));
   ends_.push(correction);
   return period_ * (sum_ + correction - ends_.at(intervals_));
 }
@@ -86,7 +86,7 @@ LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOption
   requireIn("derivative r", lowest_derivative, "", 0.0, order);
   const HorizonIntegral integral(options.horizon_samples, options.period, options.rule);
   const int num_integrals = order - lowest_derivative;
-  integrals_.assign(static_cast<std::size_t>(num_integrals), integral);
+  integrals_.assign(num_integrals, integral);
   for (int i = 0; i <= num_integrals; ++i) {
     const int for_differences = (order - i) * (horizon_ + lateness_) + 1;
     lines_.emplace_back(i < num_integrals ? std::max(for_differences, integral.requiredHistory()) : for_differences);
@@ -100,7 +100,7 @@ void LinearIntegralFilter::push(double sample) {
 }
 
 double LinearIntegralFilter::output(int derivative) const {
-  const DelayLine& line = lines_[static_cast<std::size_t>(order_ - derivative)];
+  const DelayLine& line = lines_[order_ - derivative];
   int lag = derivative * lateness_;
   // The strut's own cases, without a loop.
   if (derivative == 0) return line.at(0);

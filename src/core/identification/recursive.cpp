@@ -22,7 +22,7 @@ UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<std::op
     : UdCovariance(static_cast<int>(sources.size())) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size(), before.size());
   for (int i = 0; i < size(); ++i)
-    if (const std::optional<int>& source = sources[static_cast<std::size_t>(i)]) {
+    if (const std::optional<int>& source = sources[i]) {
       rows.row(i) = before.upper_.row(*source);
       ceiling_[i] = before.ceiling_[*source];
     }
@@ -115,10 +115,10 @@ void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residu
 
 void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns) {
   const Eigen::VectorXd before = theta_;
-  theta_.resize(static_cast<Eigen::Index>(columns.size()));
+  theta_.resize(columns.size());
   std::vector<std::optional<int>> sources;
   for (const ColumnOrigin& column : columns) {
-    theta_[static_cast<Eigen::Index>(sources.size())] = column.before ? before[*column.before] : column.start;
+    theta_[sources.size()] = column.before ? before[*column.before] : column.start;
     sources.push_back(column.before);
   }
   covariance_ = UdCovariance(covariance_, sources);

@@ -14,7 +14,7 @@ SuspensionRegression::SuspensionRegression(const IntegralFilterOptions& options,
       sensors_(sensors),
       offset_gain_(std::pow(options.horizon_samples * options.period, 2)),
       drift_rows_(LinearIntegralFilter::window(2, options) / 2),
-      row_{Eigen::VectorXd::Zero(kNumStrutParameters + static_cast<Eigen::Index>(num_effects) + count(sensors)), 0.0} {}
+      row_{Eigen::VectorXd::Zero(kNumStrutParameters + num_effects + count(sensors)), 0.0} {}
 
 const RegressionRow* SuspensionRegression::push(const CornerSample& sample, const double* effect_forces) {
   sprung_.push(sample.sprung_acceleration);

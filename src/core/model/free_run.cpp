@@ -183,7 +183,7 @@ void FreeRun::countTravelFrom(double offset) {
 bool FreeRun::ranAway(double prediction) {
   largest_ = std::max(largest_, std::abs(input_.at(0)));
   // Forces that cancel each other in the prediction stand in columns of the regression one by one.
-  const bool usable = std::all_of(forces_.begin(), forces_.begin() + static_cast<std::ptrdiff_t>(model_.effects.size()),
+  const bool usable = std::all_of(forces_.begin(), forces_.begin() + model_.effects.size(),
                                   [](double force) { return isUsable(force); });
   return !usable || !(std::abs(prediction) <= kRunaway * largest_);  // NaN, too
 }

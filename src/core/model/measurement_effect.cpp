@@ -24,15 +24,14 @@ void delay(double tau, double period, std::vector<double>& predicted) {
   const double shift = std::floor(-tau / period), fraction = -tau / period - shift;  // in samples
   std::array<double, 2 * kReach> weights{};
   double sum = 0.0;
-  for (int i = 0; i < 2 * kReach; ++i)
-    sum += weights[static_cast<std::size_t>(i)] = weightAt(i + 1 - kReach - fraction);
+  for (int i = 0; i < 2 * kReach; ++i) sum += weights[i] = weightAt(i + 1 - kReach - fraction);
   for (double& weight : weights) weight /= sum;
 
   const std::vector<double> y = predicted;
   const auto last = static_cast<long>(y.size()) - 1;
   const auto at = [&](long k) {
     const long inside = std::clamp(k < 0 ? -k : k > last ? 2 * last - k : k, 0L, last);
-    const double value = y[static_cast<std::size_t>(inside)];
+    const double value = y[inside];
     return k < 0 ? 2.0 * y.front() - value : k > last ? 2.0 * y.back() - value : value;
   };
   // A delay beyond the series' length has no meaning, but a solver may try it.
@@ -41,8 +40,8 @@ void delay(double tau, double period, std::vector<double>& predicted) {
   for (long k = 0; k <= last; ++k) {
     const long first = k + whole + 1 - kReach;
     double value = 0.0;
-    for (long i = 0; i < 2 * kReach; ++i) value += weights[static_cast<std::size_t>(i)] * at(first + i);
-    predicted[static_cast<std::size_t>(k)] = value;
+    for (long i = 0; i < 2 * kReach; ++i) value += weights[i] * at(first + i);
+    predicted[k] = value;
   }
 }
 

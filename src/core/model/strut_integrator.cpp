@@ -156,8 +156,7 @@ WheelInterpolator::WheelInterpolator(double from, double to, double period)
   const auto set = [&](Eigen::Index row, double end, int power) {
     const BandlimitedInterpolator integral = BandlimitedInterpolator::integral(from, end, power);
     for (Eigen::Index i = 0; i < kWidth; ++i)
-      weights_(i % 2, 4 * (i / 2) + row) =
-          std::pow(period, 1 + power) * integral.weights()[static_cast<std::size_t>(i)];
+      weights_(i % 2, 4 * (i / 2) + row) = std::pow(period, 1 + power) * integral.weights()[i];
   };
   const double middle = (from + to) / 2;
   set(0, to, 1);

@@ -69,7 +69,7 @@ void addAngularAcceleration(const Channel& rate, std::size_t axis, std::vector<D
   const SlopeFilter slope = SlopeFilter::fitting(series, period);
   for (std::size_t s = 0; s < segments.size(); ++s)
     for (std::size_t k = 0; k < segments[s].size(); ++k)
-      segments[s].body[2 + axis].push_back(slope(&series[s][k + static_cast<std::size_t>(margin)]));
+      segments[s].body[2 + axis].push_back(slope(&series[s][k + margin]));
 }
 
 /// Puts the body's motion beside the samples of a drive's segments, as DriveRecord says.

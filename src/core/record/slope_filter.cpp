@@ -52,7 +52,7 @@ SlopeFilter SlopeFilter::fitting(const std::vector<std::vector<double>>& series,
 
 double SlopeFilter::operator()(const double* middle) const {
   double sum = 0.0;
-  for (int k = 1; k <= halfWidth(); ++k) sum += weights_[static_cast<std::size_t>(k - 1)] * (middle[k] - middle[-k]);
+  for (int k = 1; k <= halfWidth(); ++k) sum += weights_[k - 1] * (middle[k] - middle[-k]);
   return sum;
 }
 

@@ -42,7 +42,7 @@ double shareOfTurning(const Records& records, const HoldOut& held_out, const Lin
   const Eigen::Index count = motion.numSamples();
   Eigen::MatrixXd strut(count, 3);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const StrutMotion& m = motion.motion()[static_cast<std::size_t>(k)];
+    const StrutMotion& m = motion.motion()[k];
     strut.row(k) << m.travel / motion.travel(), m.travel_rate / motion.travelRate(), m.body_acceleration;
   }
   const Eigen::VectorXd trained = joined(held_out.training);
@@ -287,9 +287,8 @@ class Search {
   bool mayBeOtherStruts(const EvaluatedModel& after) const {
     if (turning_share_ <= kWorthHaving) return false;
     const StrutModel &given = base_.ranked.model, &model = after.ranked.model;
-    return std::any_of(model.effects.begin() + static_cast<std::ptrdiff_t>(given.effects.size()), model.effects.end(),
-                       actsOnBody) ||
-           std::any_of(model.reading.begin() + static_cast<std::ptrdiff_t>(given.reading.size()), model.reading.end(),
+    return std::any_of(model.effects.begin() + given.effects.size(), model.effects.end(), actsOnBody) ||
+           std::any_of(model.reading.begin() + given.reading.size(), model.reading.end(),
                        [](const ActiveMeasurementEffect& fault) { return fault.effect.name != "accelerometer_bias"; });
   }
 
@@ -362,7 +361,7 @@ SearchResult searchEffects(const Records& records, const StrutModel& start, cons
   if (!rough) return without(Shortcoming::kNoStableFit);
   const std::optional<HoldOut> held_out = splitHoldOut(records, rough->model.stiffness_to_mass);
   if (!held_out) return without(Shortcoming::kTooShort);
-  const std::size_t most_forces = start.effects.size() + static_cast<std::size_t>(options.most_forces);
+  const std::size_t most_forces = start.effects.size() + options.most_forces;
   return Search(records, *held_out, *rough, most_forces, options, lagged).run(*rough);
 }
 

@@ -67,7 +67,7 @@ class RowStart {
         taps_.push_back(segment.taps);
       }
     }
-    const auto count = static_cast<Eigen::Index>(motion_.size());
+    const Eigen::Index count = motion_.size();
     scale_ = {std::sqrt(travel / static_cast<double>(count)), std::sqrt(rate / static_cast<double>(count)),
               1.0 / std::sqrt(b0)};
     Eigen::MatrixXd common = forcesAlong(fit.model, motion_, ends_);
@@ -97,8 +97,7 @@ class RowStart {
       model.damping_to_mass = part->common[0];
       model.stiffness_to_mass = part->common[1];
       if (!model.isDampedSpring()) continue;
-      for (std::size_t j = 0; j < model.effects.size(); ++j)
-        model.effects[j].coefficient = part->common[2 + static_cast<Eigen::Index>(j)];
+      for (std::size_t j = 0; j < model.effects.size(); ++j) model.effects[j].coefficient = part->common[2 + j];
       model.effects.push_back({effect, coefficient, shapes});
       best = Start{model, share};
     }
@@ -109,7 +108,7 @@ class RowStart {
   void passLow(Eigen::Ref<Eigen::VectorXd> column) const {
     std::size_t begin = 0;
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      auto stretch = column.segment(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(ends_[i] - begin));
+      auto stretch = column.segment(begin, ends_[i] - begin);
       stretch = lowPassed(taps_[i], stretch);
       begin = ends_[i];
     }

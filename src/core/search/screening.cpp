@@ -97,8 +97,7 @@ StrutModel Screening::changed(const Eigen::VectorXd& common) const {
   const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };
   model.damping_to_mass = change(model.damping_to_mass, common[0]);
   model.stiffness_to_mass = change(model.stiffness_to_mass, common[1]);
-  for (std::size_t j = 0; j < model.effects.size(); ++j)
-    model.effects[j].coefficient += common[2 + static_cast<Eigen::Index>(j)];
+  for (std::size_t j = 0; j < model.effects.size(); ++j) model.effects[j].coefficient += common[2 + j];
   return model;
 }
 
@@ -142,14 +141,13 @@ std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) 
   std::vector<Eigen::Index> live;  // the others go with channels that are empty
   for (Eigen::Index i = 0; i < slopes.cols(); ++i)
     if (!slopes.col(i).isZero(0.0)) live.push_back(i);
-  Eigen::MatrixXd columns(slopes.rows(), static_cast<Eigen::Index>(live.size()));
-  for (std::size_t i = 0; i < live.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = slopes.col(live[i]);
+  Eigen::MatrixXd columns(slopes.rows(), live.size());
+  for (std::size_t i = 0; i < live.size(); ++i) columns.col(i) = slopes.col(live[i]);
   const std::optional<WeightedProjection::Part> projection = live.empty() ? std::nullopt : rows_.project(columns);
   if (!projection) return std::nullopt;
   ScreenedModel screened = expect(columns, *projection);
-  std::vector<double> coefficients(static_cast<std::size_t>(slopes.cols()), 0.0);
-  for (std::size_t i = 0; i < live.size(); ++i)
-    coefficients[static_cast<std::size_t>(live[i])] = projection->coefficients[static_cast<Eigen::Index>(i)];
+  std::vector<double> coefficients(slopes.cols(), 0.0);
+  for (std::size_t i = 0; i < live.size(); ++i) coefficients[live[i]] = projection->coefficients[i];
   screened.model.reading.push_back({effect, coefficients});
   return screened;
 }
@@ -170,7 +168,7 @@ double Screening::surfaceGain() const {
   };
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n, kForceNodes * kForceNodes);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const StrutMotion& m = response_.motion()[static_cast<std::size_t>(k)];
+    const StrutMotion& m = response_.motion()[k];
     forHatsAt(m.travel / response_.travel(), m.travel_rate / response_.travelRate(), kForceNodes,
               [&](int node, double value) { forces(k, node) = value; });
   }

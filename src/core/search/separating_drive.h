@@ -39,8 +39,7 @@ inline Eigen::VectorXd totalForce(const StrutModel& model, const std::vector<Str
                                   const LinearResponse& present) {
   const Eigen::MatrixXd forces = forcesAlong(model, motion, present.ends(), present.rests());
   Eigen::VectorXd total = model.damping_to_mass * forces.col(0) + model.stiffness_to_mass * forces.col(1);
-  for (std::size_t j = 0; j < model.effects.size(); ++j)
-    total += model.effects[j].coefficient * forces.col(2 + static_cast<Eigen::Index>(j));
+  for (std::size_t j = 0; j < model.effects.size(); ++j) total += model.effects[j].coefficient * forces.col(2 + j);
   return total;
 }
 

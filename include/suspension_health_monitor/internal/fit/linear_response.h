@@ -31,7 +31,7 @@ class LinearResponse {
   /// @param fit  a fit of these records that did not run away. Both must outlive this object.
   LinearResponse(const Records& records, const ModelFit& fit);
 
-  Eigen::Index numSamples() const { return static_cast<Eigen::Index>(motion_.size()); }
+  Eigen::Index numSamples() const { return motion_.size(); }
   const std::vector<StrutMotion>& motion() const { return motion_; }  ///< per sample; without memory
   double travel() const { return travel_; }                           ///< rms [m]
   double travelRate() const { return travel_rate_; }                  ///< rms [m/s]

@@ -21,7 +21,7 @@ template <class Value>
 Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
   std::vector<double> all;
   for (const std::vector<Value>& segment : segments) all.insert(all.end(), segment.begin(), segment.end());
-  return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  return Eigen::Map<const Eigen::VectorXd>(all.data(), all.size());
 }
 
 /// @return of all segments; 0 of none.
@@ -78,7 +78,8 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
 /// @return no fit if the model runs away.
 FitOutcome withoutFit(const Records& records, const StrutModel& model);
 
-/// Travel and travel rate at the start of every segment, the model's numbers being given: as fitOutputError() finds them.
+/// Travel and travel rate at the start of every segment, the model's numbers being given: as fitOutputError() finds
+/// them.
 /// @param model  b1, b0 > 0.
 /// @return one state per segment of all records; nothing if the model runs away.
 std::optional<std::vector<StrutState>> estimateInitialStates(const Records& records, const StrutModel& model);

@@ -83,13 +83,13 @@ class BatchScatter {
         rows_(-batch_rows_),
         sum_(Eigen::VectorXd::Zero(num_parameters)),
         squares_(sum_),
-        ratios_(static_cast<std::size_t>(num_parameters), RunningMean(1.0 - 1.0 / kBatches)) {}
+        ratios_(num_parameters, RunningMean(1.0 - 1.0 / kBatches)) {}
 
   /// Of other parameters, knowing of those that stay what was known: number i was number sources[i], or is new.
   BatchScatter(const BatchScatter& before, const std::vector<std::optional<int>>& sources)
       : BatchScatter(static_cast<int>(sources.size()), before.correlated_rows_) {
     for (std::size_t i = 0; i < sources.size(); ++i)
-      if (sources[i]) ratios_[i] = before.ratios_[static_cast<std::size_t>(*sources[i])];
+      if (sources[i]) ratios_[i] = before.ratios_[*sources[i]];
   }
 
   /// @param gain  of the row, by parameter.
@@ -99,7 +99,7 @@ class BatchScatter {
     squares_ += (innovation * gain).cwiseAbs2();
     if (rows_ < batch_rows_) return;
     for (Eigen::Index i = 0; i < sum_.size(); ++i)
-      if (squares_[i] > 0.0) ratios_[static_cast<std::size_t>(i)].add(sum_[i] * sum_[i] / squares_[i]);
+      if (squares_[i] > 0.0) ratios_[i].add(sum_[i] * sum_[i] / squares_[i]);
     interrupt();
   }
 
@@ -113,7 +113,7 @@ class BatchScatter {
   /// @return the factor of parameter i; until three batches are complete as if all rows of a window were equal.
   double inflation(int i) const {
     if (correlated_rows_ == 0) return 1.0;
-    const RunningMean& ratio = ratios_[static_cast<std::size_t>(i)];
+    const RunningMean& ratio = ratios_[i];
     const double n = ratio.weight();
     // Batches cut off a part of a correlation that falls linearly: g^2 lacks 1 / (3 kCorrelationsPerBatch) of it.
     const double kept = 1.0 - 1.0 / (3.0 * kCorrelationsPerBatch);

@@ -66,8 +66,7 @@ class WheelInterpolator {
       for (Eigen::Index row = 0; row < kRows; ++row) pairs.col(row) += weights_.col(4 * i + row) * pair;
     }
     std::array<double, kRows> totals;
-    for (Eigen::Index row = 0; row < kRows; ++row)
-      totals[static_cast<std::size_t>(row)] = pairs(0, row) + pairs(1, row);
+    for (Eigen::Index row = 0; row < kRows; ++row) totals[row] = pairs(0, row) + pairs(1, row);
     return totals;
   }
 
