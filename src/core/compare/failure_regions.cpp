@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bin_range.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/compare/tuning.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
@@ -8,50 +9,6 @@
 
 namespace suspension_health_monitor {
 namespace {
-
-/// Adjacent bins, summed up.
-struct BinRange {
-  std::size_t first = 0, last = 0;  // last is one past the end
-  double count = 0.0, sum = 0.0, squares = 0.0;
-
-  void add(const ResidualBin& bin) {
-    const auto n = static_cast<double>(bin.count);
-    count += n;
-    sum += n * bin.mean;
-    squares += n * bin.rms * bin.rms;
-  }
-  double mean() const { return sum / count; }
-  double rms() const { return std::sqrt(squares / count); }
-};
-
-/// Ranges of adjacent bins with the same mark; mark 0 is none.
-std::vector<BinRange> rangesOf(const std::vector<ResidualBin>& bins, const std::vector<int>& marks) {
-  std::vector<BinRange> ranges;
-  int before = 0;
-  for (std::size_t i = 0; i < bins.size(); ++i) {
-    if (marks[i] != 0 && marks[i] != before) ranges.push_back({i, i, 0.0, 0.0, 0.0});
-    if (marks[i] != 0) {
-      ranges.back().add(bins[i]);
-      ranges.back().last = i + 1;
-    }
-    before = marks[i];
-  }
-  return ranges;
-}
-
-/// The narrowest band that holds a share of a density, as [first, last).
-std::pair<std::size_t, std::size_t> narrowestBand(const std::vector<double>& density, double share) {
-  double whole = 0.0;
-  for (const double value : density) whole += value;
-  std::pair<std::size_t, std::size_t> best{0, density.size()};
-  double inside = 0.0;
-  for (std::size_t first = 0, last = 0; last < density.size();) {
-    inside += density[last++];
-    while (inside - density[first] >= share * whole) inside -= density[first++];
-    if (inside >= share * whole && last - first < best.second - best.first) best = {first, last};
-  }
-  return best;
-}
 
 class FailureFinder {
  public:
@@ -134,33 +91,35 @@ class FailureFinder {
 
   double numSamples() const { return static_cast<double>(views_.num_samples); }
 
-  FailureRegion regionOf(FailureView view, const BinRange& range, double from, double to) const {
+  FailureRegion regionOf(FailureView view, const BinRange& range) const {
     FailureRegion region;
     region.view = view;
     region.rmse = range.rms();
     region.rmse_elsewhere = rmsElsewhere(range);
     region.share = range.count / numSamples();
-    region.from = from;
-    region.to = to;
+    region.from = range.from;
+    region.to = range.to;
+    return region;
+  }
+
+  FailureRegion& add(FailureView view, double rmse) {
+    FailureRegion& region = found_.emplace_back();
+    region.view = view;
+    region.rmse = rmse;
     return region;
   }
 
   void findOffset() {
-    if (!isForce(views_.offset, views_.offset_standard_error, limitFor(1.0))) return;
-    FailureRegion region;
-    region.view = FailureView::kOffset;
-    region.mean = views_.offset;
-    region.rmse = std::hypot(views_.offset, views_.rms);
-    found_.push_back(region);
+    if (isForce(views_.offset, views_.offset_standard_error, limitFor(1.0)))
+      add(FailureView::kOffset, std::hypot(views_.offset, views_.rms)).mean = views_.offset;
   }
 
   void findInTime(std::size_t first, std::size_t last) {
     if (findDrift(first, last)) return;
     const std::vector<ResidualBin> bins(views_.time.begin() + first, views_.time.begin() + last);
     for (const BinRange& range : noisy(bins, kCompareTuning.contrast_in_time)) {
-      FailureRegion region = regionOf(FailureView::kTime, range, bins[range.first].from, bins[range.last - 1].to);
-      region.drive = views_.time[first].drive;
-      found_.push_back(region);
+      found_.push_back(regionOf(FailureView::kTime, range));
+      found_.back().drive = views_.time[first].drive;
     }
   }
 
@@ -185,7 +144,9 @@ class FailureFinder {
       const double t = std::abs(change) / std::sqrt(1.0 / weights[0] + 1.0 / weights[1]);
       if (t <= largest || std::abs(change) <= kCompareTuning.least_trend * whole) return;
       largest = t;
-      found = regionOf(FailureView::kTime, range, views_.time[first].from, views_.time[last - 1].to);
+      range.from = views_.time[first].from;
+      range.to = views_.time[last - 1].to;
+      found = regionOf(FailureView::kTime, range);
       found.drive = views_.time[first].drive;
       found.drift = drift;
       found.first_third = means[0] / whole;
@@ -203,9 +164,8 @@ class FailureFinder {
 
   void findAlong(FailureView view, const std::vector<ResidualBin>& bins) {
     const auto take = [&](const BinRange& range, double mean) {
-      FailureRegion region = regionOf(view, range, bins[range.first].from, bins[range.last - 1].to);
-      region.mean = mean;
-      found_.push_back(region);
+      found_.push_back(regionOf(view, range));
+      found_.back().mean = mean;
     };
     const std::vector<BinRange> found = forces(bins);
     for (const BinRange& range : found) take(range, range.mean());
@@ -236,26 +196,19 @@ class FailureFinder {
         column = j;
       }
     if (largest == 0.0) return;
-    FailureRegion region;
-    region.view = FailureView::kSurface;
+    FailureRegion& region = add(FailureView::kSurface, surface.rms(row, column));
     region.mean = surface.mean(row, column);
     region.share = counts(row, column) / numSamples();
-    region.rmse = surface.rms(row, column);
     region.from = surface.travel_edges[row];
     region.to = surface.travel_edges[row + 1];
     region.rate_from = surface.rate_edges[column];
     region.rate_to = surface.rate_edges[column + 1];
-    found_.push_back(region);
   }
 
   void findDirection() {
     const DirectionLoop& loop = views_.direction;
-    if (!isForce(loop.gap, loop.gap_standard_error, limitFor(1.0))) return;
-    FailureRegion region;
-    region.view = FailureView::kDirection;
-    region.mean = loop.gap;
-    region.rmse = views_.rms;
-    found_.push_back(region);
+    if (isForce(loop.gap, loop.gap_standard_error, limitFor(1.0)))
+      add(FailureView::kDirection, views_.rms).mean = loop.gap;
   }
 
   void findFrequency() {
@@ -279,13 +232,10 @@ class FailureFinder {
       power += spectrum.residual[i];
       coherent += spectrum.residual[i] * spectrum.coherence[i];
     }
-    FailureRegion region;
-    region.view = FailureView::kFrequency;
-    region.rmse = std::sqrt(power * width);
+    FailureRegion& region = add(FailureView::kFrequency, std::sqrt(power * width));
     region.from = spectrum.frequency[first] - 0.5 * width;
     region.to = spectrum.frequency[last - 1] + 0.5 * width;
     region.coherence = coherent / power;
-    found_.push_back(region);
   }
 
   FailureRegion conclude() const {
