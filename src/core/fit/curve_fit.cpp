@@ -216,7 +216,7 @@ class CurveFit {
     Eigen::MatrixXd columns = responses();
     const Eigen::VectorXd residual = joined(fit_.residuals), taps = whiteningOf(residual, counts_);
     for (Eigen::Index j = 0; j < size(); ++j) columns.col(j) = filtered(columns.col(j), taps);
-    const Eigen::VectorXd white = filtered(residual, taps), weights = weightsOf(white);
+    const Eigen::VectorXd white = filtered(residual, taps), weights = robustWeights(white, counts_, accuracy_);
     Eigen::MatrixXd normal = columns.transpose() * weights.asDiagonal() * columns;
     Eigen::VectorXd right = columns.transpose() * weights.cwiseProduct(white);
     addPrior(normal, right);
@@ -227,7 +227,7 @@ class CurveFit {
     inverse_ = scale.asDiagonal() * solveSymmetric(scaled, Eigen::MatrixXd(scale.asDiagonal()));
     Eigen::VectorXd moved = inverse_ * right;
     if (!moved.allFinite()) return std::nullopt;
-    scatter(columns, weights.cwiseProduct(white - columns * moved));
+    scattered_ = inverse_ * sumOfScores(columns, weights.cwiseProduct(white - columns * moved), cluster_) * inverse_;
     move(moved);
     for (int halved = 0; !run(); ++halved) {
       if (halved == kMostHalvings) return std::nullopt;
@@ -235,28 +235,6 @@ class CurveFit {
       move(-moved);
     }
     return (moved.array().square() <= square(kSmall) * inverse_.diagonal().array()).all();
-  }
-
-  // One over the variance; less for outliers; 0 for what does not count.
-  Eigen::VectorXd weightsOf(const Eigen::VectorXd& white) const {
-    std::vector<double> counted;
-    for (Eigen::Index k = 0; k < white.size(); ++k)
-      if (counts_[k] > 0.0) counted.push_back(white[k]);
-    const double limit = kOutlierScale * std::max(robustDeviation(counted), accuracy_);
-    const Eigen::VectorXd weights = counts_.array() / (1.0 + (white.array() / limit).square()).sqrt();
-    const double variance = weights.dot(white.cwiseAbs2()) / weights.sum();
-    return weights / std::max(variance, square(accuracy_));
-  }
-
-  // Covariance by the scores of stretches (clusters): noise need not be alike at all times.
-  void scatter(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weighted) {
-    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(size(), size());
-    for (Eigen::Index k = 0; k < columns.rows(); k += cluster_) {
-      const Eigen::Index count = std::min(cluster_, columns.rows() - k);
-      const Eigen::VectorXd score = columns.middleRows(k, count).transpose() * weighted.segment(k, count);
-      scores.noalias() += score * score.transpose();
-    }
-    scattered_ = inverse_ * scores * inverse_;
   }
 
   /// Adds nodes where a law bends more between two than noise hides.
@@ -269,9 +247,9 @@ class CurveFit {
         const double stddev = i == zero(w) ? std::max(byNoise(w, i - 1), byNoise(w, i + 1)) : byNoise(w, i);
         return laws_[w].nodes.size() < kMostNodes && misfit(w, i) > kTolerated * stddev;
       });
-    const std::size_t before = laws_[kDamper].nodes.size() + laws_[kSpring].nodes.size();
+    const Eigen::Index before = size();
     laws_ = finer;
-    return laws_[kDamper].nodes.size() + laws_[kSpring].nodes.size() > before;
+    return size() > before;
   }
 
   const Records& records_;
@@ -284,7 +262,8 @@ class CurveFit {
   double offset_ = 0.0, accuracy_;  // [m/s^2]
   Eigen::VectorXd counts_;          // 1 for samples that count, else 0
   Eigen::Index cluster_ = 0;
-  Eigen::MatrixXd inverse_, scattered_;
+  Eigen::MatrixXd inverse_;    // covariance of the nodes and the offset by white noise
+  Eigen::MatrixXd scattered_;  // the same by the scores of stretches
 };
 
 }  // namespace
