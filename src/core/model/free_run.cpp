@@ -15,13 +15,6 @@ constexpr double kMeanMemory = 100.0;  // natural periods
 
 using Split = std::vector<WheelInterpolator>;
 
-// How many steps of kLongestStrutStep a sample has; not above 0 or NaN unless both parameters are above 0.
-// @param frequency  sqrt(b0) [1/s], NaN if b0 is below 0.
-double exactSteps(double period, double damping_to_mass, double frequency) {
-  if (!(damping_to_mass > 0.0 && frequency > 0.0)) return 0.0;
-  return period * std::max(damping_to_mass, frequency) / kLongestStrutStep;
-}
-
 // Roots of s^2 + b1 s + b0; an overdamped strut has a slow real one.
 double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
   const double half = damping_to_mass / 2;
@@ -29,16 +22,12 @@ double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
   return discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;
 }
 
-bool isFewEnough(double steps) { return steps > 0.0 && steps <= kMostStepsPerSample; }  // not NaN
-
 // A sample as 1, 2, 4, .. steps, in samples; made once, so that no run has to do it while samples come.
 const std::vector<Split>& splits() {
   static const std::vector<Split> all = [] {
     std::vector<Split> made;
-    for (int steps = 1; steps <= kMostStepsPerSample; steps *= 2) {
-      made.emplace_back();
-      for (int i = 0; i < steps; ++i) made.back().emplace_back(static_cast<double>(i) / steps, (i + 1.0) / steps, 1.0);
-    }
+    for (int steps = 1; steps <= kMostStepsPerSample; steps *= 2)
+      made.push_back(WheelInterpolator::ofSample(steps, 1.0));
     return made;
   }();
   return all;
@@ -72,15 +61,15 @@ FreeRun::FreeRun(double period) : period_(period) {
 }
 
 bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
-  const double frequency = std::sqrt(stiffness_to_mass);
-  const double steps = exactSteps(period_, damping_to_mass, frequency);
-  if (!isFewEnough(steps)) return false;
+  if (!(damping_to_mass > 0.0 && stiffness_to_mass > 0.0)) return false;  // NaN, too
+  const double steps = stepsPerSample(damping_to_mass, stiffness_to_mass, period_);
+  if (!(steps <= kMostStepsPerSample)) return false;
   if (hasModel()) state_.travel *= model_.stiffness_to_mass / stiffness_to_mass;
   model_.damping_to_mass = damping_to_mass;
   model_.stiffness_to_mass = stiffness_to_mass;
   if (!hasModel() || !(steps <= steps_.count && 2 * steps > steps_.count)) split(steps);
   decay_rate_ = slowestDecay(damping_to_mass, stiffness_to_mass);
-  mean_.memory = kMeanMemory * 2 * M_PI / (period_ * frequency);
+  mean_.memory = kMeanMemory * 2 * M_PI / (period_ * std::sqrt(stiffness_to_mass));
   return true;
 }
 

@@ -165,6 +165,12 @@ WheelInterpolator::WheelInterpolator(double from, double to, double period)
   set(3, middle, 0);
 }
 
+std::vector<WheelInterpolator> WheelInterpolator::ofSample(int steps, double period) {
+  std::vector<WheelInterpolator> all;
+  for (int i = 0; i < steps; ++i) all.emplace_back(static_cast<double>(i) / steps, (i + 1.0) / steps, period);
+  return all;
+}
+
 WheelStep WheelInterpolator::ofPart(const double* around) const {
   const auto [position, velocity, middle_position, middle_velocity] = sums<4>(around);
   return {middle_position, middle_velocity, position, velocity};

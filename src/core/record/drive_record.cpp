@@ -151,9 +151,7 @@ void DriveRecord::addSegment(const Stretch& stretch, const std::vector<double>& 
   if (stretch.wheel.size() < 2 * (end + lead) + kShortestSegment) return;
   std::vector<double> driving = stretch.driving;
   for (double& w : driving) w -= mean_wheel_;
-  std::vector<WheelInterpolator> interpolators;
-  for (int step = 0; step < steps_; ++step)
-    interpolators.emplace_back(static_cast<double>(step) / steps_, (step + 1.0) / steps_, period_);
+  const std::vector<WheelInterpolator> interpolators = WheelInterpolator::ofSample(steps_, period_);
 
   DriveSegment segment;
   const std::size_t first = end + lead, last = driving.size() - 1 - end;
@@ -198,8 +196,8 @@ std::vector<std::vector<double>> seriesOf(const Segments& segments, std::vector<
 }
 
 std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double period, const StrutModel& model) {
-  const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
-  const int steps = std::max(1, static_cast<int>(std::ceil(period * fastest / kLongestStrutStep)));
+  const double exact = stepsPerSample(model.damping_to_mass, model.stiffness_to_mass, period);
+  const int steps = std::max(1, static_cast<int>(std::ceil(exact)));
   std::deque<DriveRecord> records;
   double driven = 0.0;
   for (const Drive& drive : drives) {

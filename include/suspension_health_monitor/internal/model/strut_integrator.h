@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/strut_model.h"
@@ -28,10 +29,15 @@ struct WheelStep {
 inline constexpr double kLongestStrutStep = 0.35;
 inline constexpr int kMostStepsPerSample = 32;
 
-/// @return true if so many steps can follow the linear strut.  @param period  sampling time T [s].
+/// @param period  sampling time T [s].
+/// @return how many of the longest steps a sample of the linear strut takes.
+inline double stepsPerSample(double damping_to_mass, double stiffness_to_mass, double period) {
+  return period * std::max(damping_to_mass, std::sqrt(stiffness_to_mass)) / kLongestStrutStep;
+}
+
+/// @return true if the steps of a sample can follow the linear strut.
 inline bool canFollow(const StrutModel& model, double period) {
-  const double fastest = std::max(model.damping_to_mass, std::sqrt(model.stiffness_to_mass));
-  return period * fastest <= kLongestStrutStep * kMostStepsPerSample;
+  return stepsPerSample(model.damping_to_mass, model.stiffness_to_mass, period) <= kMostStepsPerSample;
 }
 
 /// Turns samples of w'' into wheel steps.
@@ -41,6 +47,9 @@ class WheelInterpolator {
 
   /// @param from, to  ends of the step in samples, 0 <= from < to <= 1.  @param period  T [s].
   WheelInterpolator(double from, double to, double period);
+
+  /// @return for every one of the steps in which a sample is taken.
+  static std::vector<WheelInterpolator> ofSample(int steps, double period);
 
   /// @param around  kWidth samples of w'' [m/s^2], the oldest first; the step begins `from` after number kWidth / 2
   /// - 1.
