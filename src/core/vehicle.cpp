@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/vehicle.h"
 
 #include <algorithm>
-#include <deque>
 #include <stdexcept>
 
 #include "separator.h"

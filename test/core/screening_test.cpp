@@ -48,7 +48,7 @@ TEST_P(EveryForceEffect, RespondsAsTheFreeRunDoesToASmallCoefficient) {
   const ModelFit fit = fitOf(record);
   const LinearResponse response({&record}, fit);
   const ForceEffect& effect = findEffect(forceEffects(), GetParam());
-  const Eigen::VectorXd force = forceAlong(effect, middleShapes(effect), response.motion(), response.ends());
+  const Eigen::VectorXd force = forceAlong(effect, middleShapes(effect), response.motion());
   const Eigen::VectorXd expected = response.respond(force);
   StrutModel model = fit.model;
   const double small = 1e-4 * rms(segment.sprung) / std::sqrt(force.squaredNorm() / static_cast<double>(force.size()));

@@ -75,7 +75,7 @@ class CurveFit {
     const LinearResponse response(records, start);
     usual_ = {response.travelRate(), response.travel()};
     std::array<double, 2> most{};
-    for (const StrutMotion& motion : response.motion())
+    for (const StrutMotion& motion : response.motion().samples)
       for (const std::size_t w : {kDamper, kSpring}) most[w] = std::max(most[w], std::abs(variableOf(motion, w)));
     laws_ = {
         NodalLaw::sampled(most[kDamper], kFirstNodes, [&](double v) { return slopes_[kDamper] * v + alone(0.0, v); }),
@@ -87,7 +87,7 @@ class CurveFit {
           momentary_.empty() ? 0.0 : sumOf(momentary_, m) - alone(m.travel, 0.0) - alone(0.0, m.travel_rate);
       return joint + laws_[kDamper].at(m.travel_rate) + laws_[kSpring].at(m.travel);
     };
-    countSamples(response.ends());
+    countSamples(response.motion().ends);
   }
 
   CurveFit(const CurveFit&) = delete;  // the model calls this object
@@ -192,7 +192,7 @@ class CurveFit {
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(response.numSamples(), size());
     for (Eigen::Index k = 0; k < columns.rows(); ++k)
       for (const std::size_t w : {kDamper, kSpring})
-        laws_[w].forNodesAt(variableOf(response.motion()[k], w),
+        laws_[w].forNodesAt(variableOf(response.motion().samples[k], w),
                             [&](std::size_t i, double weight) { columns(k, column(w, i)) = weight; });
     for (Eigen::Index j = 0; j + 1 < size(); ++j) columns.col(j) = response.respond(columns.col(j));
     columns.col(size() - 1).setOnes();

@@ -26,24 +26,24 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
   std::vector<double> predicted;
   std::vector<StrutState> states;
   for (const DriveSegment* segment : segmentsOf(records)) {
-    runFree(force, *segment, fit.initial[ends_.size()], predicted, &states);
+    runFree(force, *segment, fit.initial[segments_.size()], predicted, &states);
     predicted_.insert(predicted_.end(), predicted.begin(), predicted.end());
     for (std::size_t k = 0; k < states.size(); ++k) {
       const double time = segment->timeDriven(k);
-      motion_.push_back({states[k].travel, states[k].travel_rate, time, 0.0,
-                         force.force(states[k].travel, states[k].travel_rate, time, states[k].memory.data())});
+      motion_.samples.push_back({states[k].travel, states[k].travel_rate, time, 0.0,
+                                 force.force(states[k].travel, states[k].travel_rate, time, states[k].memory.data())});
       memory.push_back(states[k].memory);
     }
-    ends_.push_back(motion_.size());
-    if (!segments_.empty()) rests_.push_back(restBetween(*segments_.back(), *segment));
+    motion_.ends.push_back(motion_.samples.size());
+    if (!segments_.empty()) motion_.rests.push_back(restBetween(*segments_.back(), *segment));
     segments_.push_back(segment);
   }
   measureSizes();
-  travel_ = rms(motion_, &StrutMotion::travel);
-  travel_rate_ = rms(motion_, &StrutMotion::travel_rate);
+  travel_ = rms(motion_.samples, &StrutMotion::travel);
+  travel_rate_ = rms(motion_.samples, &StrutMotion::travel_rate);
   const double by_travel = kMotionStep * travel_, by_rate = kMotionStep * travel_rate_;
-  for (std::size_t k = 0; k < motion_.size(); ++k) {
-    const StrutMotion& m = motion_[k];
+  for (std::size_t k = 0; k < memory.size(); ++k) {
+    const StrutMotion& m = motion_.samples[k];
     const auto at = [&](double d, double v) {
       return force.force(m.travel + d, m.travel_rate + v, m.time, memory[k].data());
     };
@@ -68,31 +68,32 @@ void LinearResponse::measureSizes() {
 }
 
 Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
-                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends,
-                           const std::vector<double>& rests) {
+                           const SegmentedMotion& motion) {
   const StrutModel alone{0.0, 0.0, {{effect, 1.0, shapes}}, {}};
-  Eigen::VectorXd force(motion.size());
+  const auto& [samples, ends, rests] = motion;
+  Eigen::VectorXd force(samples.size());
   std::array<Memory, kMostEffects> memory{};
   std::size_t k = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const std::size_t end = ends[i];
     if (i > 0) keepLasting(alone, rests.empty() ? -1.0 : rests[i - 1], memory);
     for (; k < end; ++k) {
-      StrutMotion here = motion[k];
+      StrutMotion here = samples[k];
       here.memory = memory[0];
       force[k] = effect.force(here, shapes.data());
-      if (k + 1 < end) followMemories(alone, here, motion[k + 1], motion[k + 1].time - here.time, memory);
+      if (k + 1 < end) followMemories(alone, here, samples[k + 1], samples[k + 1].time - here.time, memory);
     }
   }
   return force;
 }
 
-Eigen::MatrixXd forcesAlong(const StrutModel& model, const std::vector<StrutMotion>& motion,
-                            const std::vector<std::size_t>& ends, const std::vector<double>& rests) {
-  Eigen::MatrixXd columns(motion.size(), 2 + model.effects.size());
-  for (std::size_t k = 0; k < motion.size(); ++k) columns.row(k).head<2>() << motion[k].travel_rate, motion[k].travel;
+Eigen::MatrixXd forcesAlong(const StrutModel& model, const SegmentedMotion& motion) {
+  const std::vector<StrutMotion>& samples = motion.samples;
+  Eigen::MatrixXd columns(samples.size(), 2 + model.effects.size());
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    columns.row(k).head<2>() << samples[k].travel_rate, samples[k].travel;
   for (std::size_t j = 0; j < model.effects.size(); ++j)
-    columns.col(2 + j) = forceAlong(model.effects[j].effect, model.effects[j].shapes, motion, ends, rests);
+    columns.col(2 + j) = forceAlong(model.effects[j].effect, model.effects[j].shapes, motion);
   return columns;
 }
 
@@ -130,15 +131,16 @@ Eigen::MatrixXd LinearResponse::readingSlopes(const MeasurementEffect& effect) c
     if (!std::isfinite(step)) continue;  // a channel that is not known
     std::vector<double> coefficients(count, 0.0);
     std::size_t begin = 0;
-    for (std::size_t s = 0; s < ends_.size(); ++s) {
-      std::vector<double> before(predicted_.begin() + begin, predicted_.begin() + ends_[s]);
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+      const std::size_t end = motion_.ends[s];
+      std::vector<double> before(predicted_.begin() + begin, predicted_.begin() + end);
       std::vector<double> after = before;
       coefficients[i] = -step;
       effect.apply(coefficients.data(), segments_[s]->body, period_, before);
       coefficients[i] = step;
       effect.apply(coefficients.data(), segments_[s]->body, period_, after);
       for (std::size_t k = 0; k < after.size(); ++k) slopes(begin + k, i) = (after[k] - before[k]) / (2.0 * step);
-      begin = ends_[s];
+      begin = end;
     }
   }
   return slopes;

@@ -102,7 +102,7 @@ class Search {
     }
     if (selection.group.size() < 2) return;
     result_.indistinguishable.push_back(selection.group);
-    result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen), selection));
+    result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen).motion(), selection));
   }
 
   // Forward selection: the best addition as long as it pays.

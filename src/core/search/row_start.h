@@ -56,21 +56,22 @@ class RowStart {
           static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * M_PI / (std::sqrt(b0) * segment.period)));
       for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostStartRows / samples)) {
         for (std::size_t k = first; k < end; ++k) {
-          motion_.push_back({motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
+          motion_.samples.push_back(
+              {motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
           measured.push_back(segment.sprung[k]);
           const bool is_whole = k >= first + segment.lead() && k + segment.lead() < end;  // what the filter reaches
           weight.push_back(is_whole ? held_out.training[s][k] : 0.0);
           travel += square(motion.travel[k]);
           rate += square(motion.travel_rate[k]);
         }
-        ends_.push_back(motion_.size());
+        motion_.ends.push_back(motion_.samples.size());
         taps_.push_back(segment.taps);
       }
     }
-    const Eigen::Index count = motion_.size();
+    const Eigen::Index count = motion_.samples.size();
     scale_ = {std::sqrt(travel / static_cast<double>(count)), std::sqrt(rate / static_cast<double>(count)),
               1.0 / std::sqrt(b0)};
-    Eigen::MatrixXd common = forcesAlong(fit.model, motion_, ends_);
+    Eigen::MatrixXd common = forcesAlong(fit.model, motion_);
     for (Eigen::Index j = 0; j < common.cols(); ++j) passLow(common.col(j));
     rows_ = WeightedProjection(common, Eigen::Map<const Eigen::VectorXd>(weight.data(), count),
                                Eigen::Map<const Eigen::VectorXd>(measured.data(), count));
@@ -87,7 +88,7 @@ class RowStart {
     if (effect.lasts) return best;  // stretches know no heat
     const double left = rows_.left();
     for (const std::vector<double>& shapes : scanShapes(effect, scale_)) {
-      Eigen::VectorXd column = forceAlong(effect, shapes, motion_, ends_);
+      Eigen::VectorXd column = forceAlong(effect, shapes, motion_);
       passLow(column);
       const auto part = rows_.project(column);
       if (!part) continue;
@@ -107,16 +108,15 @@ class RowStart {
  private:
   void passLow(Eigen::Ref<Eigen::VectorXd> column) const {
     std::size_t begin = 0;
-    for (std::size_t i = 0; i < ends_.size(); ++i) {
-      auto stretch = column.segment(begin, ends_[i] - begin);
+    for (std::size_t i = 0; i < taps_.size(); ++i) {
+      auto stretch = column.segment(begin, motion_.ends[i] - begin);
       stretch = lowPassed(taps_[i], stretch);
-      begin = ends_[i];
+      begin = motion_.ends[i];
     }
   }
 
   const ModelFit& fit_;
-  std::vector<StrutMotion> motion_;        // per sample of all stretches
-  std::vector<std::size_t> ends_;          // of the stretches
+  SegmentedMotion motion_;                 // over all stretches
   std::vector<std::vector<double>> taps_;  // of the filter of each stretch
   MotionScale scale_;
   WeightedProjection rows_;  // of z'' by v, d and the forces of the present effects; weight 0 where held out

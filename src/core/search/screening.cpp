@@ -85,7 +85,7 @@ std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const Mot
 
 Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit)
     : records_(records), response_(records, fit) {
-  Eigen::MatrixXd common = forcesAlong(fit.model, response_.motion(), response_.ends(), response_.rests());
+  Eigen::MatrixXd common = forcesAlong(fit.model, response_.motion());
   for (Eigen::Index j = 0; j < common.cols(); ++j) common.col(j) = response_.respond(common.col(j));
   const Eigen::VectorXd residual = joined(fit.residuals);
   rows_ = WeightedProjection(common, trainingWeights(held_out, residual), residual);
@@ -107,7 +107,7 @@ ScreenedModel Screening::expect(const WeightedProjection::Columns& columns,
   screened.model = changed(part.common);
   screened.training_gain = part.gain;
   screened.residuals =
-      split(rows_.target() - columns * part.coefficients - rows_.common() * part.common, response_.ends());
+      split(rows_.target() - columns * part.coefficients - rows_.common() * part.common, response_.motion().ends);
   return screened;
 }
 
@@ -119,8 +119,7 @@ std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const 
   const double natural_time = 1.0 / std::sqrt(response_.fit().model.stiffness_to_mass);
   for (const std::vector<double>& shapes :
        scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
-    Eigen::VectorXd column =
-        response_.respond(forceAlong(effect, shapes, response_.motion(), response_.ends(), response_.rests()));
+    Eigen::VectorXd column = response_.respond(forceAlong(effect, shapes, response_.motion()));
     const std::optional<WeightedProjection::Part> projection = rows_.project(column);
     acts = acts || projection;
     if (!projection || (effect.positive && !(projection->coefficients[0] > 0.0))) continue;
@@ -168,7 +167,7 @@ double Screening::surfaceGain() const {
   };
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n, kForceNodes * kForceNodes);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const StrutMotion& m = response_.motion()[k];
+    const StrutMotion& m = response_.motion().samples[k];
     forHatsAt(m.travel / response_.travel(), m.travel_rate / response_.travelRate(), kForceNodes,
               [&](int node, double value) { forces(k, node) = value; });
   }

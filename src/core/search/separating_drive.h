@@ -25,32 +25,27 @@ inline constexpr MotionChange kDriveChanges[] = {
     {DriveKind::kSlower, 1.0, 1.0 / 3.0, 1.0}, {DriveKind::kQuicker, 1.0, 3.0, 1.0},
     {DriveKind::kLonger, 1.0, 1.0, 3.0},
 };
-inline std::vector<StrutMotion> scaledMotion(const std::vector<StrutMotion>& motion, const MotionChange& change) {
-  std::vector<StrutMotion> result = motion;
-  for (StrutMotion& m : result) {
-    m.travel *= change.travel;
-    m.travel_rate *= change.travel_rate;
-    m.time *= change.time;
-  }
-  return result;
-}
 
-inline Eigen::VectorXd totalForce(const StrutModel& model, const std::vector<StrutMotion>& motion,
-                                  const LinearResponse& present) {
-  const Eigen::MatrixXd forces = forcesAlong(model, motion, present.ends(), present.rests());
+inline Eigen::VectorXd totalForce(const StrutModel& model, const SegmentedMotion& motion) {
+  const Eigen::MatrixXd forces = forcesAlong(model, motion);
   Eigen::VectorXd total = model.damping_to_mass * forces.col(0) + model.stiffness_to_mass * forces.col(1);
   for (std::size_t j = 0; j < model.effects.size(); ++j) total += model.effects[j].coefficient * forces.col(2 + j);
   return total;
 }
 
 /// rms difference of the least different model from the first, as a share of the first one's force.
-inline double leastDifference(const LinearResponse& present, const std::vector<StrutModel>& models,
+/// @param motion  of the present drives.
+inline double leastDifference(SegmentedMotion motion, const std::vector<StrutModel>& models,
                               const MotionChange& change) {
-  const std::vector<StrutMotion> motion = scaledMotion(present.motion(), change);
-  const Eigen::VectorXd first = totalForce(models.front(), motion, present);
+  for (StrutMotion& m : motion.samples) {
+    m.travel *= change.travel;
+    m.travel_rate *= change.travel_rate;
+    m.time *= change.time;
+  }
+  const Eigen::VectorXd first = totalForce(models.front(), motion);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < models.size(); ++i)
-    least = std::min(least, (totalForce(models[i], motion, present) - first).norm() / first.norm());
+    least = std::min(least, (totalForce(models[i], motion) - first).norm() / first.norm());
   return least;
 }
 
@@ -88,7 +83,7 @@ inline Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOu
 /// The kind of drive on which models differ that the present drives cannot tell apart: of several kinds (rougher,
 /// smoother, slower, quicker, longer) the one in which the least different of them differs most from the first, their
 /// forces taken along the present motion scaled to that kind. kNoneHelps if none makes it at least twice as much.
-inline SeparatingDrive separatingDrive(const LinearResponse& present, const Selection& selection) {
+inline SeparatingDrive separatingDrive(const SegmentedMotion& present, const Selection& selection) {
   const double here = leastDifference(present, selection.models, {DriveKind::kNoneHelps, 1.0, 1.0, 1.0});
   SeparatingDrive best{selection.group, DriveKind::kNoneHelps, kClearlyMore * here, here};
   for (const MotionChange& change : kDriveChanges) {

@@ -1,7 +1,5 @@
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
-#include <algorithm>
-
 namespace suspension_health_monitor {
 
 DriveSimulator::DriveSimulator(const SimulationOptions& options)

@@ -7,18 +7,20 @@
 
 namespace suspension_health_monitor {
 
+/// A motion over segments that follow one another.
+struct SegmentedMotion {
+  std::vector<StrutMotion> samples;  ///< without memory
+  std::vector<std::size_t> ends;     ///< of the segments: segment i is [ends[i - 1], ends[i])
+  std::vector<double> rests;         ///< [s], rests[i] between segment i and the next; empty: unknown
+};
+
 /// The force of an effect, per unit of its coefficient, at every sample of a motion; the memory starts at 0 in every
 /// segment, or with what lasts.
-/// @param ends  of the segments: segment i is [ends[i - 1], ends[i]).
-/// @param rests  [s], rests[i] between segment i and the next; empty: unknown.
-Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
-                           const std::vector<StrutMotion>& motion, const std::vector<std::size_t>& ends,
-                           const std::vector<double>& rests = {});
+Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes, const SegmentedMotion& motion);
 
 /// What the force of a model is made of along a motion: travel rate, travel and the forces of its effects, one column
 /// for each of b1, b0 and the coefficients.
-Eigen::MatrixXd forcesAlong(const StrutModel& model, const std::vector<StrutMotion>& motion,
-                            const std::vector<std::size_t>& ends, const std::vector<double>& rests = {});
+Eigen::MatrixXd forcesAlong(const StrutModel& model, const SegmentedMotion& motion);
 
 /// What a small additional force would do to a free run: the model linearised along the motion that a fit gave it.
 ///   x'' = -(F_d x + F_v x' + f),   change of z'' = F_d x + F_v x' + f, behind the filter of the drive, if it has one,
@@ -31,10 +33,10 @@ class LinearResponse {
   /// @param fit  a fit of these records that did not run away. Both must outlive this object.
   LinearResponse(const Records& records, const ModelFit& fit);
 
-  Eigen::Index numSamples() const { return motion_.size(); }
-  const std::vector<StrutMotion>& motion() const { return motion_; }  ///< per sample; without memory
-  double travel() const { return travel_; }                           ///< rms [m]
-  double travelRate() const { return travel_rate_; }                  ///< rms [m/s]
+  Eigen::Index numSamples() const { return motion_.samples.size(); }
+  const SegmentedMotion& motion() const { return motion_; }
+  double travel() const { return travel_; }           ///< rms [m]
+  double travelRate() const { return travel_rate_; }  ///< rms [m/s]
   const ModelFit& fit() const { return *fit_; }
 
   /// @return change of z'' at every sample for an additional force `f` [m/s^2].
@@ -44,21 +46,15 @@ class LinearResponse {
   /// the effect cannot show.
   Eigen::MatrixXd readingSlopes(const MeasurementEffect& effect) const;
 
-  /// Ends of the segments, as forceAlong() has them.
-  const std::vector<std::size_t>& ends() const { return ends_; }
-  const std::vector<double>& rests() const { return rests_; }  ///< between the segments, likewise
-
  private:
   void measureSizes();
 
   const ModelFit* fit_;
   double period_;
   double travel_ = 0.0, travel_rate_ = 0.0;
-  std::vector<StrutMotion> motion_;
+  SegmentedMotion motion_;
   std::vector<double> predicted_;
   std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]
-  std::vector<std::size_t> ends_;
-  std::vector<double> rests_;
   Segments segments_;
   ReadingSizes sizes_;  // of what is predicted
 };
