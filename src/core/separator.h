@@ -118,6 +118,4 @@ class Separator {
   StrutDrives noise_;  // empty without a coupling
 };
 
-bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
-
 }  // namespace suspension_health_monitor

@@ -6,10 +6,8 @@
 #include "separator.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
-#include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
-#include "suspension_health_monitor/internal/search/effect_search.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
@@ -28,6 +26,8 @@ std::vector<Options> optionsByStrut(const std::vector<Options>& options, std::si
                                 std::to_string(num_struts) + ", or one for all");
   return options;
 }
+
+bool isAt(const AntiRollBarFound& bar, std::size_t strut) { return bar.first == strut || bar.second == strut; }
 
 /// @return that of the vehicle, if it is given.
 template <class Options>

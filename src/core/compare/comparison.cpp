@@ -14,56 +14,12 @@
 namespace suspension_health_monitor {
 namespace {
 
-std::optional<PredictionError> errorOf(const std::vector<double>& measured, const std::vector<double>& predicted) {
-  using Series = Eigen::Map<const Eigen::ArrayXd>;
-  if (measured.empty()) return std::nullopt;
-  const Eigen::Index count = measured.size();
-  const Series y(measured.data(), count);
-  const double error = (y - Series(predicted.data(), count)).square().sum(), spread = (y - y.mean()).square().sum();
-  if (!(spread > 0.0) || !std::isfinite(error)) return std::nullopt;
-  return PredictionError{std::sqrt(error / static_cast<double>(count)), 100.0 * (1.0 - std::sqrt(error / spread))};
+/// @return of the free run, per segment and sample.
+Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
+  Residuals residuals;
+  for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
+  return residuals;
 }
-
-/// The measurement without the faults of its reading, to first order in them.
-std::vector<double> trueReading(const ComparedSegment& segment, const StrutModel& model) {
-  std::vector<double> faulty = segment.measured;
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, faulty);
-  for (std::size_t k = 0; k < faulty.size(); ++k) faulty[k] = 2.0 * segment.measured[k] - faulty[k];
-  return faulty;
-}
-
-}  // namespace
-
-std::optional<PredictionError> freeRunError(const std::vector<ComparedSegment>& segments) {
-  std::vector<double> measured, predicted;
-  for (const ComparedSegment& segment : segments) {
-    measured.insert(measured.end(), segment.measured.begin(), segment.measured.end());
-    predicted.insert(predicted.end(), segment.predicted.begin(), segment.predicted.end());
-  }
-  return errorOf(measured, predicted);
-}
-
-std::optional<PredictionError> oneStepError(const std::vector<ComparedSegment>& segments, const StrutModel& model,
-                                            const IntegralFilterOptions& filter) {
-  std::vector<double> measured, predicted;
-  for (const ComparedSegment& segment : segments) {
-    SuspensionRegression regression(filter);
-    LinearIntegralFilter added(2, filter, 2);
-    const std::vector<double> reading = trueReading(segment, model);
-    for (std::size_t k = 0; k < segment.size(); ++k) {
-      added.push(segment.added_force[k]);
-      const RegressionRow* row = regression.push({{}, reading[k], segment.wheel[k]});
-      if (row == nullptr) continue;
-      measured.push_back(row->output);
-      predicted.push_back(model.damping_to_mass * row->regressor[kDampingToMass] +
-                          model.stiffness_to_mass * row->regressor[kStiffnessToMass] + added.output(2));
-    }
-  }
-  return errorOf(measured, predicted);
-}
-
-namespace {
 
 /// @param taps  of the filter that the drive has passed.
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
@@ -109,12 +65,6 @@ std::vector<double> ComparedSegment::residuals() const {
   return all;
 }
 
-Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
-  Residuals residuals;
-  for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
-  return residuals;
-}
-
 std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
                                               const std::vector<StrutState>& initial) {
   ComparedDrives drives;
@@ -136,6 +86,61 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
 }
 
 namespace {
+
+std::optional<PredictionError> errorOf(const std::vector<double>& measured, const std::vector<double>& predicted) {
+  using Series = Eigen::Map<const Eigen::ArrayXd>;
+  if (measured.empty()) return std::nullopt;
+  const Eigen::Index count = measured.size();
+  const Series y(measured.data(), count);
+  const double error = (y - Series(predicted.data(), count)).square().sum(), spread = (y - y.mean()).square().sum();
+  if (!(spread > 0.0) || !std::isfinite(error)) return std::nullopt;
+  return PredictionError{std::sqrt(error / static_cast<double>(count)), 100.0 * (1.0 - std::sqrt(error / spread))};
+}
+
+/// The measurement without the faults of its reading, to first order in them.
+std::vector<double> trueReading(const ComparedSegment& segment, const StrutModel& model) {
+  std::vector<double> faulty = segment.measured;
+  for (const ActiveMeasurementEffect& reading : model.reading)
+    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, faulty);
+  for (std::size_t k = 0; k < faulty.size(); ++k) faulty[k] = 2.0 * segment.measured[k] - faulty[k];
+  return faulty;
+}
+
+/// Error of the free run over all segments.
+/// @return nothing if the measurement does not move.
+std::optional<PredictionError> freeRunError(const std::vector<ComparedSegment>& segments) {
+  std::vector<double> measured, predicted;
+  for (const ComparedSegment& segment : segments) {
+    measured.insert(measured.end(), segment.measured.begin(), segment.measured.end());
+    predicted.insert(predicted.end(), segment.predicted.begin(), segment.predicted.end());
+  }
+  return errorOf(measured, predicted);
+}
+
+/// Error of the regression rows with the model's numbers,
+///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j,   u = w'' - y,
+/// f_j from the free run's travel and rate: what the live estimators see of the model. A fault of the reading is taken
+/// out of y to first order.
+/// @param filter  its period is that of the segments.
+/// @return nothing if no segment is longer than the filter.
+std::optional<PredictionError> oneStepError(const std::vector<ComparedSegment>& segments, const StrutModel& model,
+                                            const IntegralFilterOptions& filter) {
+  std::vector<double> measured, predicted;
+  for (const ComparedSegment& segment : segments) {
+    SuspensionRegression regression(filter);
+    LinearIntegralFilter added(2, filter, 2);
+    const std::vector<double> reading = trueReading(segment, model);
+    for (std::size_t k = 0; k < segment.size(); ++k) {
+      added.push(segment.added_force[k]);
+      const RegressionRow* row = regression.push({{}, reading[k], segment.wheel[k]});
+      if (row == nullptr) continue;
+      measured.push_back(row->output);
+      predicted.push_back(model.damping_to_mass * row->regressor[kDampingToMass] +
+                          model.stiffness_to_mass * row->regressor[kStiffnessToMass] + added.output(2));
+    }
+  }
+  return errorOf(measured, predicted);
+}
 
 /// Fits the model, or keeps it.
 /// @return the state in which every segment begins; nothing if the model runs away or no spring is left.

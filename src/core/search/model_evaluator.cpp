@@ -33,7 +33,8 @@ FitFailure runningAway(const EvaluatedModel& evaluated) {
 }
 
 /// Calls work(i) for i = 0 .. count - 1 on several threads, the calling one among them, and tick() on the calling
-/// thread after each of its own items. What tick() throws ends the work early and passes on. work must not throw.
+/// thread after each of its own items, with the share of all that these are. What tick() throws ends the work early and
+/// passes on. work must not throw.
 template <class Work, class Tick>
 void forEachInParallel(std::size_t count, int threads, const Work& work, const Tick& tick) {
   std::atomic<std::size_t> next{0};
@@ -46,8 +47,9 @@ void forEachInParallel(std::size_t count, int threads, const Work& work, const T
   std::vector<std::future<void>> helpers;  // their end waits for the threads
   for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i)
     helpers.push_back(std::async(std::launch::async, [&] { takeItems([] {}); }));
+  double done = 0.0;
   try {
-    takeItems(tick);
+    takeItems([&] { tick(++done / static_cast<double>(count)); });
   } catch (...) {
     next = count;
     throw;
@@ -201,8 +203,7 @@ std::vector<EvaluatedModel> ModelEvaluator::screenAll(const EvaluatedModel& curr
       if (const auto screened = screen(screening, reading)) note(i, reading.name, *screened);
     }
   };
-  double done = 0.0;
-  forEachInParallel(count, options_.threads, screenAt, [&] { tick(++done / static_cast<double>(count)); });
+  forEachInParallel(count, options_.threads, screenAt, tick);
   std::vector<EvaluatedModel> ranking;
   for (std::optional<EvaluatedModel>& result : results)
     if (result) ranking.push_back(std::move(*result));
@@ -226,8 +227,7 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
     fitted.tried = true;
     candidate = std::move(fitted);
   };
-  double done = 0.0;
-  forEachInParallel(wanted.size(), options_.threads, fit, [&] { tick(++done / static_cast<double>(wanted.size())); });
+  forEachInParallel(wanted.size(), options_.threads, fit, tick);
 }
 
 bool ModelEvaluator::isConfoundedWithFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const {

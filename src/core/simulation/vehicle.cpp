@@ -13,14 +13,12 @@
 namespace suspension_health_monitor {
 namespace {
 
-/// Heave, pitch, roll: as many as the vehicle has.
-int motionsOf(const Vehicle& vehicle) { return 1 + (vehicle.pitches() ? 1 : 0) + (vehicle.rolls() ? 1 : 0); }
-
 void requireHeld(const Vehicle& vehicle) {
   Eigen::MatrixXd pushes(vehicle.struts.size(), 3);
   for (std::size_t i = 0; i < vehicle.struts.size(); ++i)
     pushes.row(i) << 1.0, vehicle.struts[i].x, vehicle.struts[i].y;
-  if (rankOf(pushes) < motionsOf(vehicle))
+  const int motions = 1 + (vehicle.pitches() ? 1 : 0) + (vehicle.rolls() ? 1 : 0);
+  if (rankOf(pushes) < motions)
     throw std::invalid_argument(
         "the struts do not hold the body, must be three that are not in a line, or all on one axis through the centre "
         "of gravity, at least two");
@@ -202,10 +200,6 @@ void changeKnownForces(OptionMap& values, Vehicle& vehicle) {
   }
 }
 
-void changeImu(OptionMap& values, Vehicle& vehicle) {
-  takeAll("body_imu", takePrefixed(values, "body_imu"), kVehicleImuFields, vehicle.body_imu);
-}
-
 void requireGiven(const std::string& prefix, const OptionMap& values, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (values.count(name) == 0)
@@ -220,7 +214,7 @@ void changeVehicle(OptionMap& values, const EffectLibrary& library, Vehicle& veh
     changeStrut(settings, library, vehicle.struts[vehicle.strutNamed(name)]);
   changeBars(values, vehicle);
   changeKnownForces(values, vehicle);
-  changeImu(values, vehicle);
+  takeAll("body_imu", takePrefixed(values, "body_imu"), kVehicleImuFields, vehicle.body_imu);
 }
 
 Vehicle takeVehicle(OptionMap& values, const EffectLibrary& library) {

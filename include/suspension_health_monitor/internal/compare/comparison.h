@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/compare.h"
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
+#include "suspension_health_monitor/internal/model/strut_integrator.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
 
 namespace suspension_health_monitor {
@@ -31,9 +30,6 @@ std::vector<FailureRegion> findFailures(const ResidualViews& views, const Linear
 /// @return the range of nearly all values: single extremes would stretch an axis.
 std::pair<double, double> coveredRange(std::vector<double> values);
 
-/// @return of the free run, per segment and sample.
-Residuals residualsOf(const std::vector<ComparedSegment>& segments);
-
 struct ComparedDrives {
   std::vector<ComparedSegment> segments;
   std::vector<std::vector<StrutState>> motion;  ///< of the free runs, per segment and sample
@@ -51,19 +47,6 @@ struct ComparedDrives {
 /// @return nothing if the model runs away.  @pre model.stiffness_to_mass > 0.
 std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
                                               const std::vector<StrutState>& initial);
-
-/// Error of the free run over all segments.
-/// @return nothing if the measurement does not move.
-std::optional<PredictionError> freeRunError(const std::vector<ComparedSegment>& segments);
-
-/// Error of the regression rows with the model's numbers,
-///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j,   u = w'' - y,
-/// f_j from the free run's travel and rate: what the live estimators see of the model. A fault of the reading is taken
-/// out of y to first order.
-/// @param filter  its period is that of the segments.
-/// @return nothing if no segment is longer than the filter.
-std::optional<PredictionError> oneStepError(const std::vector<ComparedSegment>& segments, const StrutModel& model,
-                                            const IntegralFilterOptions& filter);
 
 /// @param segments  compared by the model.  @param motion  of the free run, per segment and sample.
 /// @return one per effect of the model, in its order; what the reading does is no force.
