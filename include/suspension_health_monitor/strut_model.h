@@ -59,6 +59,12 @@ struct StrutModel {
       sum += effects[j].force({travel, travel_rate, time, memory[j]});
     return sum;
   }
+
+  /// Turns a series of z'' in place into what the faulty sensor reads.
+  /// @param body  of the same samples.  @param period  sampling time T [s].
+  void read(const BodyChannels& body, double period, std::vector<double>& series) const {
+    for (const auto& [fault, coefficients] : reading) fault.apply(coefficients.data(), body, period, series);
+  }
 };
 
 /// Why a fit gave no model that can be named.

@@ -31,8 +31,7 @@ void addMissingForce(const StrutModel& model, const std::vector<StrutState>& mot
     force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
                            segment.timeDriven(k), motion[k].memory.data());
   passLow(taps, force);
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, force);
+  model.read(segment.body, segment.period, force);
   for (std::size_t k = 0; k < segment.size(); ++k) force[k] = segment.measured[k] - force[k];
 }
 
@@ -100,8 +99,7 @@ std::optional<PredictionError> errorOf(const std::vector<double>& measured, cons
 /// The measurement without the faults of its reading, to first order in them.
 std::vector<double> trueReading(const ComparedSegment& segment, const StrutModel& model) {
   std::vector<double> faulty = segment.measured;
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, faulty);
+  model.read(segment.body, segment.period, faulty);
   for (std::size_t k = 0; k < faulty.size(); ++k) faulty[k] = 2.0 * segment.measured[k] - faulty[k];
   return faulty;
 }

@@ -126,8 +126,7 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
   passLow(segment.taps, predicted);
   cutEnds(lead, predicted);
   if (motion != nullptr) cutEnds(lead, *motion);
-  for (const ActiveMeasurementEffect& reading : model.reading)
-    reading.effect.apply(reading.coefficients.data(), segment.body, segment.period, predicted);
+  model.read(segment.body, segment.period, predicted);
   return true;
 }
 
