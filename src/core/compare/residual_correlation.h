@@ -122,9 +122,7 @@ inline void addAll(std::vector<double>& values, const std::vector<double>& more)
 
 /// Takes the mean off. @return it.
 inline double takeMeanOff(std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  const double mean = sum / static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   for (double& value : values) value -= mean;
   return mean;
 }

@@ -42,8 +42,9 @@ class SegmentCost : public ceres::CostFunction {
     if (!evaluate(shared, local, base)) return false;
     Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = base.unaryExpr([this](double r) { return damp(r); });
     if (jacobians == nullptr) return true;
-    return (jacobians[0] == nullptr || differentiate(shared, local, shared, base, jacobians[0])) &&
-           (jacobians[1] == nullptr || differentiate(shared, local, local, base, jacobians[1]));
+    if (jacobians[0] != nullptr) differentiate(shared, local, shared, base, jacobians[0]);
+    if (jacobians[1] != nullptr) differentiate(shared, local, local, base, jacobians[1]);
+    return true;
   }
 
  private:
@@ -60,7 +61,7 @@ class SegmentCost : public ceres::CostFunction {
   }
 
   /// Derivative of the damped residuals with respect to `varied`, one of the two others. Row by row.
-  bool differentiate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& varied,
+  void differentiate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& varied,
                      const Eigen::VectorXd& base, double* jacobian) const {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     Eigen::Map<RowMajor> columns(jacobian, num_residuals(), varied.size());
@@ -77,7 +78,6 @@ class SegmentCost : public ceres::CostFunction {
       varied[i] = kept;
       for (int k = 0; k < num_residuals(); ++k) columns(k, i) = (moved[k] - base[k]) / step * dampSlope(base[k]);
     }
-    return true;
   }
 
   // Smooth Huber loss as a change of the residual: half its square is a^2 (sqrt(1 + (r/a)^2) - 1).

@@ -83,23 +83,10 @@ void addBodyChannels(const std::vector<BodyMotion>& motion, std::vector<DriveSeg
   }
 }
 
-}  // namespace
+/// The samples of an uninterrupted part of a drive, by their places in it.
+using Stretch = std::vector<std::size_t>;
 
-/// An uninterrupted part of a drive, as it was measured.
-struct DriveRecord::Stretch {
-  double start = 0.0;  // [s]
-  std::vector<double> sprung, wheel, driving;
-  std::vector<Stamp> stamps;
-
-  void cut(std::size_t size) {
-    sprung.resize(size);
-    wheel.resize(size);
-    driving.resize(size);
-    stamps.resize(size);
-  }
-};
-
-std::vector<DriveRecord::Stretch> DriveRecord::stretchesOf(const Drive& drive, double period) {
+std::vector<Stretch> stretchesOf(const Drive& drive, double period) {
   std::vector<Stretch> stretches;
   int sprung_repeats = 0, wheel_repeats = 0;  // of the last reading
   const CornerSample* last = nullptr;
@@ -118,54 +105,57 @@ std::vector<DriveRecord::Stretch> DriveRecord::stretchesOf(const Drive& drive, d
     last = &sample;
     Stretch& stretch = stretches.back();
     if (std::max(sprung_repeats, wheel_repeats) < kStuckRepeats) {
-      if (stretch.wheel.empty()) stretch.start = toSeconds(sample.stamp - drive.samples.front().stamp);
-      stretch.sprung.push_back(sample.sprung_acceleration);
-      stretch.wheel.push_back(sample.unsprung_acceleration);
-      stretch.driving.push_back(drive.low_pass.taps.empty() ? stretch.wheel.back() : drive.low_pass.unfiltered[k]);
-      stretch.stamps.push_back(sample.stamp);
-    } else if (!stretch.wheel.empty()) {  // the readings that turn out to be stuck are in it already
-      stretch.cut(stretch.wheel.size() - std::min<std::size_t>(stretch.wheel.size(), kStuckRepeats));
+      stretch.push_back(k);
+    } else if (!stretch.empty()) {  // the readings that turn out to be stuck are in it already
+      stretch.resize(stretch.size() - std::min<std::size_t>(stretch.size(), kStuckRepeats));
       stretches.emplace_back();
     }
   }
   return stretches;
 }
 
+}  // namespace
+
 DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double driven_before)
     : period_(period), steps_(steps), noise_(drive.noise) {
   const std::vector<Stretch> stretches = stretchesOf(drive, period);
   double sum = 0.0, count = 0.0;
   for (const Stretch& stretch : stretches) {
-    for (const double wheel : stretch.wheel) sum += wheel;
-    count += static_cast<double>(stretch.wheel.size());
+    for (const std::size_t k : stretch) sum += drive.samples[k].unsprung_acceleration;
+    count += static_cast<double>(stretch.size());
   }
   mean_wheel_ = count > 0.0 ? sum / count : 0.0;
-  for (const Stretch& stretch : stretches) addSegment(stretch, drive.low_pass.taps);
+  for (const Stretch& stretch : stretches) addSegment(drive, stretch);
   for (DriveSegment& segment : segments_) segment.driven_before = driven_before;
   addBodyChannels(drive.body, segments_);
 }
 
-void DriveRecord::addSegment(const Stretch& stretch, const std::vector<double>& taps) {
+void DriveRecord::addSegment(const Drive& drive, const std::vector<std::size_t>& stretch) {
+  const LowPass& filter = drive.low_pass;
   const std::size_t end = BandlimitedInterpolator::kHalfWidth;
-  const std::size_t lead = taps.size() / 2;
-  if (stretch.wheel.size() < 2 * (end + lead) + kShortestSegment) return;
-  std::vector<double> driving = stretch.driving;
-  for (double& w : driving) w -= mean_wheel_;
-  const std::vector<WheelInterpolator> interpolators = WheelInterpolator::ofSample(steps_, period_);
+  const std::size_t lead = filter.taps.size() / 2;
+  if (stretch.size() < 2 * (end + lead) + kShortestSegment) return;
+  std::vector<double> driving;
+  for (const std::size_t k : stretch)
+    driving.push_back((filter.taps.empty() ? drive.samples[k].unsprung_acceleration : filter.unfiltered[k]) -
+                      mean_wheel_);
 
   DriveSegment segment;
   const std::size_t first = end + lead, last = driving.size() - 1 - end;
-  segment.start = stretch.start + static_cast<double>(first) * period_;
+  segment.start = toSeconds(drive.samples[stretch.front()].stamp - drive.samples.front().stamp) +
+                  static_cast<double>(first) * period_;
   segment.period = period_;
   segment.steps = steps_;
-  segment.taps = taps;
-  for (std::size_t k = first; k <= last - lead; ++k) {
-    segment.sprung.push_back(stretch.sprung[k] - mean_wheel_);
+  segment.taps = filter.taps;
+  for (std::size_t i = first; i <= last - lead; ++i) {
+    const CornerSample& sample = drive.samples[stretch[i]];
+    segment.sprung.push_back(sample.sprung_acceleration - mean_wheel_);
     segment.body[static_cast<std::size_t>(BodyChannel::kGravity)].push_back(mean_wheel_);
-    segment.stamps.push_back(stretch.stamps[k]);
-    segment.unsprung.push_back(stretch.wheel[k] - mean_wheel_);
-    segment.driving.push_back(driving[k]);
+    segment.stamps.push_back(sample.stamp);
+    segment.unsprung.push_back(sample.unsprung_acceleration - mean_wheel_);
+    segment.driving.push_back(driving[i]);
   }
+  const std::vector<WheelInterpolator> interpolators = WheelInterpolator::ofSample(steps_, period_);
   for (std::size_t k = end; k < last; ++k)
     for (const WheelInterpolator& interpolate : interpolators)
       segment.wheel.push_back(interpolate(&driving[k + 1 - end]));

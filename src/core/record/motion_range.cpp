@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "suspension_health_monitor/internal/math/periodogram.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -14,10 +15,10 @@ constexpr std::size_t kShortestPart = 64, kLongestPart = 16384;
 
 /// @return the bin below which that share of the power is.
 double quantile(const std::vector<double>& power, double share) {
-  double all = 0.0, below = 0.0;
-  for (const double each : power) all += each;
+  const double wanted = share * std::accumulate(power.begin(), power.end(), 0.0);
+  double below = 0.0;
   std::size_t bin = 0;
-  while (bin + 1 < power.size() && below + power[bin] < share * all) below += power[bin++];
+  while (bin + 1 < power.size() && below + power[bin] < wanted) below += power[bin++];
   return static_cast<double>(bin);
 }
 

@@ -76,13 +76,13 @@ class Search {
     last = refine(last);
     // What several names explain no better than one does, one explains.
     if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
-      result_.indistinguishable.clear();
       result_.separating.clear();
       last = suspect_->chosen;
       noteGroup(*suspect_);
     }
     result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
     conclude(last);
+    for (const SeparatingDrive& drive : result_.separating) result_.indistinguishable.push_back(drive.group);
     report(1.0);
     return result_;
   }
@@ -96,13 +96,11 @@ class Search {
     if (mayBeTilt(selection.chosen.ranked.model, selection.chosen.added, records_)) {
       Names group = selection.group;
       if (!contains(group, kTilt)) group.emplace_back(kTilt);
-      result_.indistinguishable.push_back(group);
       result_.separating.push_back({group, DriveKind::kAtRest, 0.0, 0.0});
       return;
     }
-    if (selection.group.size() < 2) return;
-    result_.indistinguishable.push_back(selection.group);
-    result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen).motion(), selection));
+    if (selection.group.size() > 1)
+      result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen).motion(), selection));
   }
 
   // Forward selection: the best addition as long as it pays.
@@ -149,7 +147,6 @@ class Search {
     const bool only_suspect = found.size() == 1 && found.front() == suspect_->chosen.added;
     if (only_suspect) noteGroup(*suspect_);
     for (bool changed = !found.empty() && !only_suspect; changed;) {
-      result_.indistinguishable.clear();
       result_.separating.clear();
       const auto tick = [this](double) { report(kStarted + kForward); };
       current = reconsidered(current, namesBeyond(base_, current), tick);
@@ -247,7 +244,6 @@ class Search {
     const std::size_t names = namesBeyond(base_, last).size();
     const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
     if (names > 0 && isExplained(last, before)) return name(Verdict::kEffectFound, last);
-    result_.indistinguishable.clear();
     result_.separating.clear();
     if (suspect_ && isSuspect(suspect_->chosen)) {
       noteGroup(*suspect_);

@@ -64,10 +64,8 @@ class DriveRecord {
   const std::vector<CornerSample>& noise() const { return noise_; }  ///< Drive::noise
 
  private:
-  struct Stretch;
-
-  static std::vector<Stretch> stretchesOf(const Drive& drive, double period);
-  void addSegment(const Stretch& stretch, const std::vector<double>& taps);
+  /// @param stretch  places of uninterrupted samples in the drive.
+  void addSegment(const Drive& drive, const std::vector<std::size_t>& stretch);
 
   double period_;
   int steps_;
