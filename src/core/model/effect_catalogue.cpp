@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "find_by_name.h"
 #include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
@@ -205,9 +204,5 @@ const std::vector<ForceEffect>& forceEffects() {
 }
 
 EffectLibrary builtInEffects() { return {forceEffects(), measurementEffects()}; }
-
-const ForceEffect& findEffect(const std::vector<ForceEffect>& effects, std::string_view name) {
-  return findByName(effects, name);
-}
 
 }  // namespace suspension_health_monitor

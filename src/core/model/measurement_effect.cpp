@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "find_by_name.h"
 #include "suspension_health_monitor/effects.h"
 
 namespace suspension_health_monitor {
@@ -134,10 +133,6 @@ std::string nameOfCoefficient(const MeasurementEffect& effect, std::size_t i) {
 const std::vector<MeasurementEffect>& measurementEffects() {
   static const std::vector<MeasurementEffect> effects = makeMeasurementEffects();
   return effects;
-}
-
-const MeasurementEffect& findEffect(const std::vector<MeasurementEffect>& effects, std::string_view name) {
-  return findByName(effects, name);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,11 +1,11 @@
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
-#include "find_by_name.h"
 #include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
@@ -63,12 +63,55 @@ constexpr const char* kEffects = "effects";
 constexpr const char* kReadings = "readings";
 constexpr const char* kCoefficient = "coefficient";
 
+/// @param besides  what else the message has to say.
+/// @return the record of that name.  @throws std::invalid_argument  naming the unknown name and the known ones.
+template <class Record>
+const Record& findByName(const std::vector<Record>& records, std::string_view name, const std::string& besides = {}) {
+  const auto found = std::find_if(records.begin(), records.end(), [&](const Record& r) { return r.name == name; });
+  if (found != records.end()) return *found;
+  const std::vector<std::string> known = namesOf(records);
+  throw std::invalid_argument("effect " + std::string(name) + ", must be one of " + join(known) + besides +
+                              suggestNearest(std::string(name), known));
+}
+
 std::string orFaults(const std::vector<MeasurementEffect>& faults) {
   if (faults.empty()) return "";
   return "; or a fault of the reading (" + std::string(kReadings) + "/NAME/...): " + join(namesOf(faults));
 }
 
+constexpr OptionField<StrutModel> kModelFields[] = {
+    {"complete", "", "false: it leaves more than noise", &StrutModel::is_complete}};
+
+double takeParameter(OptionMap& values, const std::string& name, double min) {
+  const auto found = values.find(name);
+  if (found == values.end())
+    throw std::invalid_argument(name + " is missing; a model has damping_to_mass [1/s] and stiffness_to_mass [1/s^2]");
+  const double value = toNumber(name, found->second, min, 1e15);
+  values.erase(found);
+  return value;
+}
+
+/// The shortest text that is exactly this number.
+std::string exact(double value) {
+  for (int digits = std::numeric_limits<double>::digits10;; ++digits) {
+    const std::string text = formatted("%.*g", digits, value);
+    if (digits == std::numeric_limits<double>::max_digits10 || std::strtod(text.c_str(), nullptr) == value) return text;
+  }
+}
+
+std::string line(const char* indent, const std::string& name, double value, const std::string& unit) {
+  return indent + name + ": " + exact(value) + "  # [" + unit + "]\n";
+}
+
 }  // namespace
+
+const ForceEffect& findEffect(const std::vector<ForceEffect>& effects, std::string_view name) {
+  return findByName(effects, name);
+}
+
+const MeasurementEffect& findEffect(const std::vector<MeasurementEffect>& effects, std::string_view name) {
+  return findByName(effects, name);
+}
 
 std::vector<ActiveEffect> takeEffects(OptionMap& values, const std::vector<ForceEffect>& catalogue,
                                       const std::vector<MeasurementEffect>& faults) {
@@ -123,34 +166,6 @@ void setEffect(OptionMap& values, const std::string& assignment, const std::vect
   }
   if (group.empty()) refuse();
 }
-
-namespace {
-
-constexpr OptionField<StrutModel> kModelFields[] = {
-    {"complete", "", "false: it leaves more than noise", &StrutModel::is_complete}};
-
-double takeParameter(OptionMap& values, const std::string& name, double min) {
-  const auto found = values.find(name);
-  if (found == values.end())
-    throw std::invalid_argument(name + " is missing; a model has damping_to_mass [1/s] and stiffness_to_mass [1/s^2]");
-  const double value = toNumber(name, found->second, min, 1e15);
-  values.erase(found);
-  return value;
-}
-
-/// The shortest text that is exactly this number.
-std::string exact(double value) {
-  for (int digits = std::numeric_limits<double>::digits10;; ++digits) {
-    const std::string text = formatted("%.*g", digits, value);
-    if (digits == std::numeric_limits<double>::max_digits10 || std::strtod(text.c_str(), nullptr) == value) return text;
-  }
-}
-
-std::string line(const char* indent, const std::string& name, double value, const std::string& unit) {
-  return indent + name + ": " + exact(value) + "  # [" + unit + "]\n";
-}
-
-}  // namespace
 
 void requireAllowed(const std::string& name, const ShapeParameter& shape, double value) {
   const bool is_plain = shape.scale == ShapeScale::kNone;

@@ -15,7 +15,6 @@
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
-
 namespace {
 
 constexpr std::array kVariables{"d", "v", "t", "s"};
@@ -53,8 +52,6 @@ void refuseStatements(const mu::Parser& parser, const std::string& text) {
   }
   if (parser.GetNumResults() > 1) throw std::invalid_argument("has several results, must have one");
 }
-
-}  // namespace
 
 /// A law written as an expression; a ForceEffect::Law. A copy has a parser and variables of its own.
 class LawExpression {
@@ -113,8 +110,6 @@ class LawExpression {
   bool has_memory_;
   std::unique_ptr<Compiled> compiled_;
 };
-
-namespace {
 
 constexpr std::size_t kLongestText = 200, kLongestLaw = 1000;  // [characters]
 
@@ -203,11 +198,9 @@ void checkFinite(const std::string& where, const Law& law, const std::vector<Sha
 }
 
 void checkNew(const std::string& where, const std::string& name) {
-  const EffectLibrary built_in = builtInEffects();
-  bool known = false;
-  for (const ForceEffect& effect : built_in.forces) known = known || effect.name == name;
-  for (const MeasurementEffect& effect : built_in.readings) known = known || effect.name == name;
-  if (known) refuse(where, "a built-in effect has this name, choose another");
+  for (const std::vector<std::string>& known : {namesOf(forceEffects()), namesOf(measurementEffects())})
+    if (std::find(known.begin(), known.end(), name) != known.end())
+      refuse(where, "a built-in effect has this name, choose another");
 }
 
 ForceEffect makeUserEffect(const std::string& name, OptionMap values) {

@@ -114,6 +114,13 @@ std::vector<Stretch> stretchesOf(const Drive& drive, double period) {
   return stretches;
 }
 
+bool isKnown(const Records& records, BodyChannel channel) {
+  const Segments segments = segmentsOf(records);
+  return std::none_of(segments.begin(), segments.end(), [&](const DriveSegment* segment) {
+    return segment->body[static_cast<std::size_t>(channel)].empty();
+  });
+}
+
 }  // namespace
 
 DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double driven_before)
@@ -202,17 +209,6 @@ Records pointersTo(const std::deque<DriveRecord>& records) {
   for (const DriveRecord& record : records) pointers.push_back(&record);
   return pointers;
 }
-
-namespace {
-
-bool isKnown(const Records& records, BodyChannel channel) {
-  const Segments segments = segmentsOf(records);
-  return std::none_of(segments.begin(), segments.end(), [&](const DriveSegment* segment) {
-    return segment->body[static_cast<std::size_t>(channel)].empty();
-  });
-}
-
-}  // namespace
 
 std::vector<std::pair<std::string, BodyChannel>> takeUntestable(EffectLibrary& library, const Records& records) {
   std::vector<std::pair<std::string, BodyChannel>> untestable;

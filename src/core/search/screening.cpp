@@ -13,6 +13,28 @@ namespace {
 
 constexpr double kIndependent = 1e-6;  // share of a column that the model's own columns must leave
 
+constexpr double kRatio = 1.45;  // between neighbours
+constexpr double kMostCombinations = 36.0;
+constexpr Eigen::Index kSurfaceRows = 20000;
+
+Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
+  Residuals segments;
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    segments.emplace_back(all.data() + begin, all.data() + end);
+    begin = end;
+  }
+  return segments;
+}
+
+// Weights of the smooth Huber loss, 0 where a sample is held out.
+Eigen::VectorXd trainingWeights(const HoldOut& held_out, const Eigen::VectorXd& residual) {
+  const double limit = kOutlierScale * robustDeviation({residual.data(), residual.data() + residual.size()});
+  const Eigen::VectorXd trained = joined(held_out.training);
+  if (!(limit > 0.0)) return trained;
+  return trained.array() / (1.0 + (residual.array() / limit).square()).sqrt();
+}
+
 }  // namespace
 
 WeightedProjection::WeightedProjection(Eigen::MatrixXd common, Eigen::VectorXd weight, Eigen::VectorXd target)
@@ -37,32 +59,6 @@ std::optional<WeightedProjection::Part> WeightedProjection::project(const Column
   part.common = gram_.solve(own_) - carried * part.coefficients;
   return part;
 }
-
-namespace {
-
-constexpr double kRatio = 1.45;  // between neighbours
-constexpr double kMostCombinations = 36.0;
-constexpr Eigen::Index kSurfaceRows = 20000;
-
-Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
-  Residuals segments;
-  std::size_t begin = 0;
-  for (const std::size_t end : ends) {
-    segments.emplace_back(all.data() + begin, all.data() + end);
-    begin = end;
-  }
-  return segments;
-}
-
-// Weights of the smooth Huber loss, 0 where a sample is held out.
-Eigen::VectorXd trainingWeights(const HoldOut& held_out, const Eigen::VectorXd& residual) {
-  const double limit = kOutlierScale * robustDeviation({residual.data(), residual.data() + residual.size()});
-  const Eigen::VectorXd trained = joined(held_out.training);
-  if (!(limit > 0.0)) return trained;
-  return trained.array() / (1.0 + (residual.array() / limit).square()).sqrt();
-}
-
-}  // namespace
 
 std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const MotionScale& scales) {
   const auto dimensions = static_cast<double>(effect.shapes.size());

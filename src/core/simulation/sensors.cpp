@@ -8,6 +8,18 @@ namespace {
 
 constexpr int kNumSines = 24;
 
+// By place.
+constexpr std::array kNoise{RandomPurpose::kSprungNoise, RandomPurpose::kUnsprungNoise, RandomPurpose::kRoadNoise};
+constexpr std::array kDelivery{RandomPurpose::kSprungDelivery, RandomPurpose::kUnsprungDelivery,
+                               RandomPurpose::kRoadDelivery};
+
+std::mt19937_64 seeded(int seed, RandomPurpose purpose, unsigned index) {
+  std::vector<unsigned> numbers{static_cast<unsigned>(seed), static_cast<unsigned>(purpose)};
+  if (index != 0) numbers.push_back(index);
+  std::seed_seq sequence(numbers.begin(), numbers.end());
+  return std::mt19937_64(sequence);
+}
+
 }  // namespace
 
 BodySway::BodySway(const SimulationOptions& options) {
@@ -37,15 +49,6 @@ Sway BodySway::at(double t) const {
   }
   return sway;
 }
-
-namespace {
-
-// By place.
-constexpr std::array kNoise{RandomPurpose::kSprungNoise, RandomPurpose::kUnsprungNoise, RandomPurpose::kRoadNoise};
-constexpr std::array kDelivery{RandomPurpose::kSprungDelivery, RandomPurpose::kUnsprungDelivery,
-                               RandomPurpose::kRoadDelivery};
-
-}  // namespace
 
 SensorSchedule::SensorSchedule(double rate, double phase, const SimulationOptions& options, RandomPurpose timing)
     : rate_(rate),
@@ -135,17 +138,6 @@ double SimulatedFaults::read(double acceleration, const Sway& sway) const {
       acceleration + sway.angular_acceleration[0] * position[1] - sway.angular_acceleration[1] * position[0];
   return (1.0 + gain_error) * (here + tilt[0] * sway.acceleration[0] + tilt[1] * sway.acceleration[1]) + bias;
 }
-
-namespace {
-
-std::mt19937_64 seeded(int seed, RandomPurpose purpose, unsigned index) {
-  std::vector<unsigned> numbers{static_cast<unsigned>(seed), static_cast<unsigned>(purpose)};
-  if (index != 0) numbers.push_back(index);
-  std::seed_seq sequence(numbers.begin(), numbers.end());
-  return std::mt19937_64(sequence);
-}
-
-}  // namespace
 
 RandomStream::RandomStream(int seed, RandomPurpose purpose, unsigned index) : engine_(seeded(seed, purpose, index)) {}
 

@@ -26,22 +26,6 @@ std::string describe(const std::vector<ActiveEffect>& effects) {
 
 std::string at(double t) { return formatted(" (%g s after the start of the drive)", t); }
 
-}  // namespace
-
-IntegrationGuard::IntegrationGuard(const std::vector<ActiveEffect>& hidden, double step)
-    : hidden_(describe(hidden)), step_(step) {}
-
-void IntegrationGuard::refuseStiffness(double t) const {
-  throw std::invalid_argument("the strut" + hidden_ + " is too stiff to be simulated: its force changes so abruptly " +
-                              "that the integration would hardly get on" + at(t));
-}
-
-void IntegrationGuard::refuseMotion(double t) const {
-  throw std::invalid_argument("the strut" + hidden_ + " is unstable: it runs away" + at(t));
-}
-
-namespace {
-
 constexpr std::size_t kBodyRates = 3;  // places in the state
 constexpr std::size_t kWheels = 6;
 
@@ -85,6 +69,18 @@ VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
 }
 
 }  // namespace
+
+IntegrationGuard::IntegrationGuard(const std::vector<ActiveEffect>& hidden, double step)
+    : hidden_(describe(hidden)), step_(step) {}
+
+void IntegrationGuard::refuseStiffness(double t) const {
+  throw std::invalid_argument("the strut" + hidden_ + " is too stiff to be simulated: its force changes so abruptly " +
+                              "that the integration would hardly get on" + at(t));
+}
+
+void IntegrationGuard::refuseMotion(double t) const {
+  throw std::invalid_argument("the strut" + hidden_ + " is unstable: it runs away" + at(t));
+}
 
 VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, double between_samples,
                              std::vector<Signal> known_forces)
