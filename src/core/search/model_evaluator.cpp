@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "rivals.h"
-#include "row_start.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
@@ -140,70 +139,77 @@ EvaluatedModel ModelEvaluator::asItIs(const ModelFit& fit) const {
   return evaluated;
 }
 
+EvaluatedModel ModelEvaluator::expected(const std::string& added, const ScreenedModel& screened,
+                                        const EvaluatedModel& current) const {
+  EvaluatedModel result;
+  FitFailure failure = screened.failure;
+  if (failure == FitFailure::kNone) {
+    result = weighed(screened.model, screened.residuals);
+    failure = runningAway(result);
+  }
+  if (failure == FitFailure::kNone) {
+    result.training_gain = screened.training_gain;
+    result.to_explain = current.to_explain;
+    rank(current, result);
+  } else {
+    result = failed(current, failure);
+    result.ranked.effects.push_back(added);
+  }
+  result.added = added;
+  return result;
+}
+
+std::optional<EvaluatedModel> ModelEvaluator::screen(const ForceEffect& effect, const Screening& screening,
+                                                     const RowStart& row_start, const EvaluatedModel& current) const {
+  std::optional<ScreenedModel> screened = screening.screen(effect);
+  if (!screened) return std::nullopt;
+  // A law without a number inside is linear in all that is fitted: one start is as good as another.
+  const auto start = effect.shapes.empty() ? std::nullopt : row_start.with(effect);
+  std::optional<ScreenedModel> second = start ? screening.asItIs(start->model) : std::nullopt;
+  const bool failed = screened->failure != FitFailure::kNone;
+  if (second && (failed || second->training_gain > screened->training_gain)) std::swap(*screened, *second);
+  EvaluatedModel result = expected(effect.name, *screened, current);
+  if (!second) return result;
+  if (!failed) result.second_start = second->model;
+  const double to_gain = held_out_.trainingError(current.fit.residuals);
+  result.training_gain = std::max(result.training_gain, start->share * to_gain);
+  return result;
+}
+
 // A delay is linear only where it is short against the motion.
-std::optional<ScreenedModel> ModelEvaluator::screen(const Screening& screening,
-                                                    const MeasurementEffect& reading) const {
+std::optional<EvaluatedModel> ModelEvaluator::screen(const MeasurementEffect& reading, const Screening& screening,
+                                                     const EvaluatedModel& current) const {
   std::optional<ScreenedModel> screened = screening.screen(reading);
-  if (!lagged_ || lagged_->reading.front().effect.name != reading.name) return screened;
-  StrutModel model = screening.model();
-  model.damping_to_mass = lagged_->damping_to_mass;
-  model.stiffness_to_mass = lagged_->stiffness_to_mass;
-  model.reading.push_back(lagged_->reading.front());
-  std::optional<ScreenedModel> second = screening.asItIs(model);
-  return second && (!screened || second->training_gain > screened->training_gain) ? second : screened;
+  if (lagged_ && lagged_->reading.front().effect.name == reading.name) {
+    StrutModel model = screening.model();
+    model.damping_to_mass = lagged_->damping_to_mass;
+    model.stiffness_to_mass = lagged_->stiffness_to_mass;
+    model.reading.push_back(lagged_->reading.front());
+    std::optional<ScreenedModel> second = screening.asItIs(model);
+    if (second && (!screened || second->training_gain > screened->training_gain)) screened.swap(second);
+  }
+  return screened ? std::optional(expected(reading.name, *screened, current)) : std::nullopt;
 }
 
 std::vector<EvaluatedModel> ModelEvaluator::screenAll(const EvaluatedModel& current, const Tick& tick) const {
   const Screening screening(records_, held_out_, current.fit);
   const RowStart row_start(records_, held_out_, current.fit);
-  const double to_gain = held_out_.trainingError(current.fit.residuals);
   const std::vector<ForceEffect>& forces = options_.candidates.forces;
   const std::vector<MeasurementEffect>& readings = options_.candidates.readings;
-  const std::size_t count = forces.size() + readings.size();
-  std::vector<std::optional<EvaluatedModel>> results(count);
-  const std::vector<std::string>& present = current.ranked.effects;
-  const auto note = [&](std::size_t i, const std::string& name, const ScreenedModel& screened) {
-    EvaluatedModel& result = results[i].emplace();
-    FitFailure failure = screened.failure;
-    if (failure == FitFailure::kNone) {
-      result = weighed(screened.model, screened.residuals);
-      failure = runningAway(result);
-    }
-    if (failure == FitFailure::kNone) {
-      result.training_gain = screened.training_gain;
-      result.to_explain = current.to_explain;
-      rank(current, result);
-    } else {
-      result = failed(current, failure);
-      result.ranked.effects.push_back(name);
-    }
-    result.added = name;
+  std::vector<std::optional<EvaluatedModel>> results(forces.size() + readings.size());
+  const bool is_full = current.fit.model.effects.size() >= most_forces_;
+  const auto isPresent = [&](const std::string& name) {
+    const std::vector<std::string>& present = current.ranked.effects;
+    return std::find(present.begin(), present.end(), name) != present.end();
   };
-  const auto screenForce = [&](std::size_t i, const ForceEffect& effect) {
-    std::optional<ScreenedModel> screened = screening.screen(effect);
-    if (!screened) return;
-    // A law without a number inside is linear in all that is fitted: one start is as good as another.
-    const auto start = effect.shapes.empty() ? std::nullopt : row_start.with(effect);
-    std::optional<ScreenedModel> second = start ? screening.asItIs(start->model) : std::nullopt;
-    const bool failed = screened->failure != FitFailure::kNone;
-    if (second && (failed || second->training_gain > screened->training_gain)) std::swap(*screened, *second);
-    note(i, effect.name, *screened);
-    if (!second) return;
-    if (!failed) results[i]->second_start = second->model;
-    results[i]->training_gain = std::max(results[i]->training_gain, start->share * to_gain);
-  };
-  const bool full = current.fit.model.effects.size() >= most_forces_;
   const auto screenAt = [&](std::size_t i) {
-    const auto isPresent = [&](const std::string& name) {
-      return std::find(present.begin(), present.end(), name) != present.end();
-    };
     if (i < forces.size()) {
-      if (!full && !isPresent(forces[i].name)) screenForce(i, forces[i]);
+      if (!is_full && !isPresent(forces[i].name)) results[i] = screen(forces[i], screening, row_start, current);
     } else if (const MeasurementEffect& reading = readings[i - forces.size()]; !isPresent(reading.name)) {
-      if (const auto screened = screen(screening, reading)) note(i, reading.name, *screened);
+      results[i] = screen(reading, screening, current);
     }
   };
-  forEachInParallel(count, options_.threads, screenAt, tick);
+  forEachInParallel(results.size(), options_.threads, screenAt, tick);
   std::vector<EvaluatedModel> ranking;
   for (std::optional<EvaluatedModel>& result : results)
     if (result) ranking.push_back(std::move(*result));

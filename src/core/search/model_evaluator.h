@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "row_start.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 #include "suspension_health_monitor/internal/search/screening.h"
@@ -73,7 +74,11 @@ class ModelEvaluator {
   std::vector<EvaluatedModel> screenAll(const EvaluatedModel& current, const Tick& tick) const;
   void fitAll(const std::vector<std::size_t>& wanted, const EvaluatedModel& current,
               std::vector<EvaluatedModel>& ranking, const Tick& tick) const;
-  std::optional<ScreenedModel> screen(const Screening& screening, const MeasurementEffect& reading) const;
+  std::optional<EvaluatedModel> screen(const ForceEffect& effect, const Screening& screening, const RowStart& row_start,
+                                       const EvaluatedModel& current) const;
+  std::optional<EvaluatedModel> screen(const MeasurementEffect& reading, const Screening& screening,
+                                       const EvaluatedModel& current) const;
+  EvaluatedModel expected(const std::string& added, const ScreenedModel& screened, const EvaluatedModel& current) const;
   EvaluatedModel weighed(const StrutModel& model, const Residuals& residuals) const;
   void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
   EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
