@@ -79,7 +79,7 @@ class Separator {
   }
 
  private:
-  // Samples are what a grid made of the readings: every strut has two accelerometers, as it seems.
+  // A grid made the samples out of the readings, so that each strut seems to have two accelerometers of its own.
   void learnRows(const std::vector<std::string>& names) {
     VehicleBlocks blocks(VehicleChannels::ofAccelerometers(names.size(), drives_.front().forces.size()), BlockOptions{},
                          period_);

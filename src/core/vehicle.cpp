@@ -146,7 +146,7 @@ class VehicleSearch {
     return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
   }
 
-  // What models leave tells of noise that struts share only as far as they are those of these drives.
+  // Residuals tell the noise that struts share only if the models fit these drives: the given ones are fitted first.
   void fitGiven() {
     if (!separator_.sharesNoise()) return;
     std::vector<std::size_t> given;
@@ -155,8 +155,8 @@ class VehicleSearch {
     separator_.fitModels(given);
   }
 
-  // What a law that was not known yet does was taken for noise that struts share, in part: its numbers come from drives
-  // as an estimator sees them.
+  // As long as a law was not known, a part of its force was taken for noise that struts share. So what was found is
+  // fitted once more, to drives out of which no such noise was taken.
   void fitFound() {
     if (!separator_.sharesNoise()) return;
     std::vector<std::size_t> found;

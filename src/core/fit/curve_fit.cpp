@@ -50,7 +50,7 @@ double sumOf(const std::vector<ActiveEffect>& effects, const StrutMotion& motion
   return sum;
 }
 
-/// b1 and b0. A strut without a damper has one of a tenth of the critical damping, so that all is counted in something.
+/// b1 and b0. A strut without a damper is given a tenth of the critical damping, so that its damper's law has a scale.
 std::array<double, 2> slopesOf(const StrutModel& model) {
   return {std::max(model.damping_to_mass, 0.2 * std::sqrt(model.stiffness_to_mass)), model.stiffness_to_mass};
 }
@@ -199,7 +199,7 @@ class CurveFit {
     return columns;
   }
 
-  // A node that few samples reach goes on from its neighbours.
+  // Holds a node that few samples reach on the straight line through its neighbours.
   void addPrior(Eigen::MatrixXd& normal, Eigen::VectorXd& right) const {
     for (const std::size_t w : {kDamper, kSpring})
       for (std::size_t i = 1; i + 1 < laws_[w].nodes.size(); ++i) {
@@ -279,7 +279,7 @@ double ForceCurve::forceAt(double x) const { return NodalLaw{at, force}.at(x); }
 double ForceCurve::stddevAt(double x) const { return NodalLaw{at, stddev}.at(x); }
 
 StrutCurves fitCurves(const Records& records, const StrutModel& model) {
-  // One effect's place is for the curves.
+  // To the model, the curves are one more effect.
   const auto kept = std::count_if(model.effects.begin(), model.effects.end(), hasMemory);
   if (segmentsOf(records).empty() || kept == static_cast<std::ptrdiff_t>(kMostEffects)) return {};
   const FitOutcome start = withoutFit(records, model);

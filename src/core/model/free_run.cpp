@@ -33,7 +33,7 @@ const std::vector<Split>& splits() {
   return all;
 }
 
-// What a constant acceleration alone would do.
+// Takes out of a step of the wheel what a constant acceleration alone would do.
 void takeOff(double constant, double step, WheelStep& wheel) {
   const double velocity = step * constant, position = step * velocity / 2;
   wheel.middle_position -= position / 4;

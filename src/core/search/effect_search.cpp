@@ -74,7 +74,7 @@ class Search {
     EvaluatedModel last = extend(base_, 0);
     if (namesBeyond(base_, last).size() > 1) last = extendRivals(last);
     last = refine(last);
-    // What several names explain no better than one does, one explains.
+    // Several names that explain no more than the first one alone give way to it.
     if (namesBeyond(base_, last).size() > 1 && !evaluator_.isWorthHaving(suspect_->chosen, last)) {
       result_.separating.clear();
       last = suspect_->chosen;
@@ -130,8 +130,8 @@ class Search {
     return current;
   }
 
-  // Of several effects that which explains most alone need not be one: a law with more numbers takes some of each. So
-  // every other that was fitted has its turn at being the first.
+  // If several effects are missing, the one that explains most alone need not be among them: a law with more numbers
+  // takes a part of each. So every other one that was fitted is tried as the first.
   EvaluatedModel extendRivals(EvaluatedModel best) {
     for (const EvaluatedModel& rival : rivals_) {
       if (!rival.ranked.significant || contains(namesBeyond(base_, best), rival.added)) continue;
@@ -141,7 +141,8 @@ class Search {
     return best;
   }
 
-  // Of several effects every one again. That may make one superfluous, which changes what the others are confused with.
+  // Chooses each of several effects again, beside the others. That may make one superfluous, which changes what the
+  // others are confused with.
   EvaluatedModel refine(EvaluatedModel current) {
     const Names found = namesBeyond(base_, current);
     const bool only_suspect = found.size() == 1 && found.front() == suspect_->chosen.added;

@@ -26,7 +26,7 @@ std::vector<std::string> namesOf(const StrutModel& model) {
   return names;
 }
 
-// It may do so in the stretches that are held out alone.
+// A model that was fitted can still run away in the stretches that were held out.
 FitFailure runningAway(const EvaluatedModel& evaluated) {
   return std::isfinite(evaluated.ranked.held_out_rmse) ? FitFailure::kNone : FitFailure::kRunsAway;
 }

@@ -50,7 +50,7 @@ class ModelEvaluator {
   EvaluatedModel evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
                           const EvaluatedModel* before) const;
 
-  /// A model as it is.
+  /// Evaluates a model without fitting it.
   EvaluatedModel asItIs(const ModelFit& fit) const;
 
   /// Every candidate that is not in the model added to it: all screened, those fitted that may be the best.

@@ -44,8 +44,9 @@ inline Polyline windowsOf(const Records& records, double stiffness_to_mass) {
   return windows;
 }
 
-/// The time that a window's frequency tells, by its own time: by the windows whose frequencies are next to its own, one
-/// below and one above, not by its own time. At the ends by the two next ones.
+/// For every window its own time, and the time that its frequency alone tells: the mean time of the two windows whose
+/// frequencies are next to its own, one below and one above. Of the lowest and the highest frequency, where there is no
+/// second neighbour, the straight line through the times of the two next windows tells it.
 inline Polyline timeByFrequency(Polyline windows) {
   Polyline result;
   if (windows.size() < 3) return result;

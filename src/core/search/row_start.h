@@ -85,7 +85,7 @@ class RowStart {
   /// @return nothing if no shape leaves a damped spring and a coefficient of the right sign.
   std::optional<Start> with(const ForceEffect& effect) const {
     std::optional<Start> best;
-    if (effect.lasts) return best;  // stretches know no heat
+    if (effect.lasts) return best;  // such a memory needs whole drives, not stretches
     const double left = rows_.left();
     for (const std::vector<double>& shapes : scanShapes(effect, scale_)) {
       Eigen::VectorXd column = forceAlong(effect, shapes, motion_);

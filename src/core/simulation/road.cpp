@@ -64,9 +64,8 @@ RoadPoint paperBumps(double t) {
 }
 
 double isoDisplacementDensity(char road_class, double spatial_frequency) {
-  if (road_class < 'A' || road_class > 'H') {
+  if (road_class < 'A' || road_class > 'H')
     throw std::invalid_argument(std::string("iso_class = \"") + road_class + "\" [-], must be one of A to H");
-  }
   const double at_reference = std::ldexp(16e-6, 2 * (road_class - 'A'));
   const double ratio = spatial_frequency / kReferenceFrequency;
   return at_reference / (ratio * ratio);

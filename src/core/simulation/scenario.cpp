@@ -68,22 +68,18 @@ Road makeRoad(const SimulationOptions& options, const ScenarioVehicle& vehicle) 
 
 void validate(const SimulationOptions& options) {
   validate(options, kSimulationFields);
-  if (options.ramp_end <= options.ramp_start) {
+  if (options.ramp_end <= options.ramp_start)
     refuse("ramp_end", options.ramp_end, "s", formatted("later than ramp_start = %g", options.ramp_start));
-  }
   const double shortest = 1.0 / fasterRate(options);
-  if (options.stamp_jitter >= shortest) {
+  if (options.stamp_jitter >= shortest)
     refuse("stamp_jitter", options.stamp_jitter, "s",
            formatted("less than one sample period, 1 / rate = %g", shortest));
-  }
-  if (options.sampling_jitter > 0.0 && options.sampling_jitter >= shortest - options.stamp_jitter) {
+  if (options.sampling_jitter > 0.0 && options.sampling_jitter >= shortest - options.stamp_jitter)
     refuse("sampling_jitter", options.sampling_jitter, "s",
            formatted("less than one sample period, 1 / rate, less stamp_jitter = %g", shortest - options.stamp_jitter));
-  }
-  if (options.hidden.size() > kMostHiddenEffects) {
+  if (options.hidden.size() > kMostHiddenEffects)
     refuse("number of hidden effects", static_cast<double>(options.hidden.size()), "",
            "at most " + std::to_string(kMostHiddenEffects));
-  }
   const SimulatedFaults faults = SimulatedFaults::from(options.hidden_faults);
   const auto acts = [](const std::array<double, 2>& sizes) { return sizes[0] != 0.0 || sizes[1] != 0.0; };
   if (acts(faults.tilt) && options.body_acceleration == 0.0)
@@ -106,9 +102,8 @@ Scenario makeScenario(const SimulationOptions& options) {
   result.driven.mass = vehicle.car.sprung_mass;
   result.driven.struts = {strutOf(result.vehicle, options)};
   result.road = makeRoad(options, vehicle);
-  if (options.scenario == "paper_outliers") {
+  if (options.scenario == "paper_outliers")
     result.zero_readings.assign(std::begin(kPaperLosses), std::end(kPaperLosses));
-  }
   return result;
 }
 
