@@ -18,9 +18,11 @@ double pullOfLoad(const Memory& memory, const double* shapes) {
   return w * (2.0 * shapes[1] * memory.second + w * memory.s);
 }
 
+}  // namespace
+
 // d travel, v travel rate, t time, s memory, c the coefficient. A new effect is one more record.
-std::vector<ForceEffect> makeForceEffects() {
-  return {
+const std::vector<ForceEffect>& forceEffects() {
+  static const std::vector<ForceEffect> effects{
       {"progressive_spring",
        "c d |d|^(p-1)",
        "m^(1-p)/s^2",
@@ -194,12 +196,6 @@ std::vector<ForceEffect> makeForceEffects() {
        "Damage, unless the load has changed while driving: check for a broken coil or an air spring that leaks.",
        [](const M& m, const double*) { return m.time * m.travel; }},
   };
-}
-
-}  // namespace
-
-const std::vector<ForceEffect>& forceEffects() {
-  static const std::vector<ForceEffect> effects = makeForceEffects();
   return effects;
 }
 

@@ -55,11 +55,13 @@ double leakScale(const ReadingSizes& sizes, BodyChannel channel) {
   return sizes.residual / sizes.body[static_cast<std::size_t>(channel)];
 }
 
-std::vector<MeasurementEffect> makeMeasurementEffects() {
+}  // namespace
+
+const std::vector<MeasurementEffect>& measurementEffects() {
   using Sizes = ReadingSizes;
   using C = BodyChannel;
   using Series = std::vector<double>;
-  return {
+  static const std::vector<MeasurementEffect> effects{
       {"clock_offset",
        "y(t - c)",
        {{"coefficient", "s"}},
@@ -122,17 +124,11 @@ std::vector<MeasurementEffect> makeMeasurementEffects() {
        },
        {C::kAngularAccelerationX, C::kAngularAccelerationY}},
   };
+  return effects;
 }
-
-}  // namespace
 
 std::string nameOfCoefficient(const MeasurementEffect& effect, std::size_t i) {
   return effect.coefficients.size() == 1 ? effect.name : effect.name + '/' + effect.coefficients[i].name;
-}
-
-const std::vector<MeasurementEffect>& measurementEffects() {
-  static const std::vector<MeasurementEffect> effects = makeMeasurementEffects();
-  return effects;
 }
 
 }  // namespace suspension_health_monitor

@@ -87,23 +87,16 @@ Screening::Screening(const Records& records, const HoldOut& held_out, const Mode
   rows_ = WeightedProjection(common, trainingWeights(held_out, residual), residual);
 }
 
-StrutModel Screening::changed(const Eigen::VectorXd& common) const {
-  StrutModel model = response_.fit().model;
-  // A linear guess far away is no good place to begin; half of a parameter is.
-  const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };
-  model.damping_to_mass = change(model.damping_to_mass, common[0]);
-  model.stiffness_to_mass = change(model.stiffness_to_mass, common[1]);
-  for (std::size_t j = 0; j < model.effects.size(); ++j) model.effects[j].coefficient += common[2 + j];
-  return model;
-}
-
 ScreenedModel Screening::expect(const WeightedProjection::Columns& columns,
                                 const WeightedProjection::Part& part) const {
-  ScreenedModel screened;
-  screened.model = changed(part.common);
-  screened.training_gain = part.gain;
-  screened.residuals =
-      split(rows_.target() - columns * part.coefficients - rows_.common() * part.common, response_.motion().ends);
+  const Eigen::VectorXd left = rows_.target() - columns * part.coefficients - rows_.common() * part.common;
+  ScreenedModel screened{response_.fit().model, part.gain, split(left, response_.motion().ends)};
+  StrutModel& model = screened.model;
+  // A fit begins badly at a linear guess that is far away: b1 and b0 go half their size at most.
+  const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };
+  model.damping_to_mass = change(model.damping_to_mass, part.common[0]);
+  model.stiffness_to_mass = change(model.stiffness_to_mass, part.common[1]);
+  for (std::size_t j = 0; j < model.effects.size(); ++j) model.effects[j].coefficient += part.common[2 + j];
   return screened;
 }
 

@@ -78,14 +78,13 @@ class Screening {
 
  private:
   ScreenedModel expect(const WeightedProjection::Columns& columns, const WeightedProjection::Part& part) const;
-  StrutModel changed(const Eigen::VectorXd& common) const;
 
   const Records& records_;
   LinearResponse response_;
   WeightedProjection rows_;  // of measured - predicted by the responses to b1, b0 and the present effects' coefficients
 };
 
-/// @return shapes of the effect in SI, spread evenly in ratio over their ranges: at most 64 combinations, one (empty)
+/// @return shapes of the effect in SI, spread evenly in ratio over their ranges: at most 36 combinations, one (empty)
 /// for an effect without shapes.
 std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const MotionScale& scales);
 
