@@ -14,8 +14,7 @@ double BlockWeights::of(const Eigen::Ref<const Eigen::ArrayXd>& power) const {
 
 double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
   BandVector power(bands.count());
-  for (int i = 0; i < bands.count(); ++i)
-    power[i] = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands.size(i);
+  for (int i = 0; i < bands.count(); ++i) power[i] = residualPower(block.bands[i].moments, theta) / bands.size(i);
   return of(power.array());
 }
 
@@ -73,7 +72,7 @@ DriveFit::DriveFit(const BlockBand& band, const BlockColumns& columns)
   information_.setZero(p, p);
   scatter_ = spread_ = information_;
   right_.setZero(p);
-  previous_.assign(static_cast<std::size_t>(bands_.count()), right_);
+  previous_.assign(bands_.count(), right_);
 }
 
 void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const BlockVector& theta) {
@@ -81,7 +80,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
   const double weight = weights.of(block, bands_, theta);
   weight_ += weight;
   for (int i = 0; i < bands_.count(); ++i) {
-    const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+    const StrutBlock::Band& band = block.bands[i];
     const double scale = weights.share_scale[i], of_band = weight / weights.noise[i];
     const BlockMatrix information = of_band * withShare(band.information, scale);
     const BlockVector score = of_band * scoreOf(band, theta, scale);
@@ -89,7 +88,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     spread_ += of_band * withShare(band.instruments, scale);
     right_.noalias() += information * theta;
     right_ += score;
-    BlockVector& previous = previous_[static_cast<std::size_t>(i)];
+    BlockVector& previous = previous_[i];
     const BlockMatrix with_previous = 0.5 * score * previous.transpose();
     scatter_ += score * score.transpose() + with_previous + with_previous.transpose();
     previous = score;

@@ -32,7 +32,7 @@ StrutBlock StrutEquations::makeBlock() const {
   block.predicted_neighbours = block.neighbours;
   if (columns_.neighbours > 0) block.predicted_travel.setZero(s_.size());
   block.at.setZero(p);
-  block.bands.resize(static_cast<std::size_t>(noise_bands_.count()));
+  block.bands.resize(noise_bands_.count());
   for (StrutBlock::Band& each : block.bands) {
     each.information.setZero(p, p);
     each.instruments.setZero(p, p);
@@ -106,7 +106,7 @@ void StrutEquations::sumBands(StrutBlock& block) const {
   const Eigen::Index p = columns_.numParameters();
   for (int i = 0; i < noise_bands_.count(); ++i) {
     const int first = noise_bands_.first(i), size = noise_bands_.size(i);
-    StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+    StrutBlock::Band& band = block.bands[i];
     const auto z_band = z.middleRows(2 * first, 2 * size), r_band = r.middleRows(2 * first, 2 * size);
     band.information.noalias() = z_band.transpose().lazyProduct(r_band.leftCols(p));
     band.instruments.noalias() = z_band.transpose().lazyProduct(z_band);

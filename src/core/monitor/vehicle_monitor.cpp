@@ -138,7 +138,7 @@ void VehicleMonitor::addGridSample(const VehicleSample& sample) {
 
 void VehicleMonitor::addSample(const VehicleSample& sample) {
   VehicleChannels vehicle;
-  if (!blocks_) vehicle = VehicleChannels::ofAccelerometers(numStruts(), static_cast<std::size_t>(num_forces_));
+  if (!blocks_) vehicle = VehicleChannels::ofAccelerometers(numStruts(), num_forces_);
   forReadings(sample, [&](const VehicleReading& reading) { addReading(vehicle, reading); });
   addGridSample(sample);
 }

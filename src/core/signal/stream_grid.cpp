@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
@@ -56,7 +55,7 @@ GridStreams::GridStreams(Stamp period, const std::vector<StreamOptions>& options
   const auto reference =
       std::find_if(options.begin(), options.end(), [](const StreamOptions& o) { return o.required; });
   if (reference == options.end()) throw std::invalid_argument("of the streams of a grid at least one must be required");
-  reference_ = static_cast<std::size_t>(reference - options.begin());
+  reference_ = reference - options.begin();
   std::size_t sensors = 0;
   streams_.reserve(options.size());
   for (const StreamOptions& each : options) {

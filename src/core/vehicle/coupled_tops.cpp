@@ -78,11 +78,11 @@ void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
     block.forces.col(column++) = channel_;
   };
   if (effects_.empty()) fillForce(wheels_[strut], 1);
-  while (column < block.forces.cols() - static_cast<Eigen::Index>(forces_.size())) fillForce(effects_.front(), column);
+  while (column + forces_.size() < static_cast<std::size_t>(block.forces.cols())) fillForce(effects_.front(), column);
   for (const FourierIntegrals& force : forces_) fillForce(force, 0);
   if (!vehicle_.struts[strut].sprung) return fillByBody(*vehicle_.struts[strut].position, half, block);
   own_[own_of_[strut]].sumHalves(half, 0, channel_);
-  for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(static_cast<Eigen::Index>(p)));
+  for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(p));
 }
 
 void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block) {
@@ -99,30 +99,30 @@ void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, Stru
                         {kWx2Wy2, 0, -position.z()}};
   block.body.setZero();
   for (const Part& part : parts) {
-    body_.front().sumHalves(half, static_cast<Eigen::Index>(part.channel), channel_);
+    body_.front().sumHalves(half, part.channel, channel_);
     for (std::size_t p = 0; p < 3; ++p) {
       modulation_.apply(p + part.derivatives, channel_, derivative_);
-      block.body.col(static_cast<Eigen::Index>(p)) += part.factor * derivative_;
+      block.body.col(p) += part.factor * derivative_;
     }
   }
 }
 
 CoupledTops::CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces)
-    : modulation_(band), s_(modulation_.s()), lu_(static_cast<Eigen::Index>(struts)) {
-  const auto n = static_cast<Eigen::Index>(struts), m = static_cast<Eigen::Index>(forces);
-  rows_ = {Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, m)};
-  wheels_.setZero(s_.size(), n);
+    : modulation_(band), s_(modulation_.s()), lu_(struts) {
+  rows_ = {Eigen::MatrixXd::Zero(struts, struts), Eigen::MatrixXd::Zero(struts, struts),
+           Eigen::MatrixXd::Zero(struts, forces)};
+  wheels_.setZero(s_.size(), struts);
   travel_ = wheels_;
-  forces_.setZero(s_.size(), m);
+  forces_.setZero(s_.size(), forces);
 }
 
 void CoupledTops::setRows(const TopRows& rows) {
   rows_ = rows;
   const auto n = wheels_.cols();
-  follows_.resize(static_cast<std::size_t>(s_.size()));
+  follows_.resize(s_.size());
   for (Eigen::Index b = 0; b < s_.size(); ++b) {
     const std::complex<double> s2 = s_[b] * s_[b];
-    Small& q = follows_[static_cast<std::size_t>(b)];
+    Small& q = follows_[b];
     q = rows_.rate * s_[b] + rows_.travel.cast<std::complex<double>>();
     q.diagonal().array() += s2;
     lu_.compute(q);
@@ -134,25 +134,23 @@ const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const 
   const NoiseBands& bands = equations.noiseBands();
   const BlockColumns& columns = equations.columns();
   const auto n = static_cast<std::size_t>(wheels_.cols());
-  const auto i = static_cast<Eigen::Index>(strut);
-  const double b1 = rows_.rate(i, i), b0 = rows_.travel(i, i);
+  const double b1 = rows_.rate(strut, strut), b0 = rows_.travel(strut, strut);
   const auto columnOf = [&](std::size_t j) {
     return j == strut ? int{kBlockDamping} : columns.firstNeighbour() + neighbourColumn(strut, j);
   };
-  noise_.assign(static_cast<std::size_t>(bands.count()),
-                {BlockMatrix::Zero(columns.numParameters(), columns.numParameters()), 0.0});
+  noise_.assign(bands.count(), {BlockMatrix::Zero(columns.numParameters(), columns.numParameters()), 0.0});
   for (int band = 0; band < bands.count(); ++band) {
-    WheelNoise& noise = noise_[static_cast<std::size_t>(band)];
+    WheelNoise& noise = noise_[band];
     BlockMatrix& sum = noise.information;
     for (int bin = bands.first(band); bin < bands.first(band) + bands.size(band); ++bin) {
       const std::complex<double> s = s_[bin];
       const double a2 = std::norm(s * s + b1 * s + b0);
-      const Small& follows = follows_[static_cast<std::size_t>(bin)];
-      for (Eigen::Index j = 0; j < follows.cols(); ++j)
-        noise.output += std::norm((j == i ? 1.0 : 0.0) - follows(i, j)) / bands.size(band);
+      const Small& follows = follows_[bin];
+      for (std::size_t j = 0; j < n; ++j)
+        noise.output += std::norm((j == strut ? 1.0 : 0.0) - follows(strut, j)) / bands.size(band);
       for (std::size_t k = 0; k < n; ++k)
         for (std::size_t j = 0; j < n; ++j) {
-          const std::complex<double> z = std::conj(follows(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)));
+          const std::complex<double> z = std::conj(follows(k, j));
           const int row = columnOf(k), column = columnOf(j);
           sum(row, column) += std::real(z) * std::norm(s) / a2;
           sum(row + 1, column + 1) += std::real(z) / a2;
@@ -166,7 +164,7 @@ const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const 
 
 void CoupledTops::predict(const std::vector<const StrutBlock*>& blocks, int first_force) {
   const auto n = wheels_.cols();
-  for (Eigen::Index j = 0; j < n; ++j) modulation_.apply(0, blocks[static_cast<std::size_t>(j)]->wheel, wheels_.col(j));
+  for (Eigen::Index j = 0; j < n; ++j) modulation_.apply(0, blocks[j]->wheel, wheels_.col(j));
   for (Eigen::Index k = 0; k < forces_.cols(); ++k)
     modulation_.apply(2, blocks.front()->forces.col(first_force + k), forces_.col(k));
   Small q(n, n);

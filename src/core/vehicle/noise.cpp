@@ -117,18 +117,15 @@ std::optional<Left> leftBy(const StrutModel& model, const Drive& drive, double p
   const std::deque<DriveRecord> records = makeRecords({drive}, period, model);
   const auto initial = estimateInitialStates(pointersTo(records), model);
   if (!initial) return std::nullopt;
-  Left left{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(drive.samples.size())),
-            std::vector<Eigen::Index>(drive.samples.size(), 0)};
+  Left left{Eigen::VectorXd::Zero(drive.samples.size()), std::vector<Eigen::Index>(drive.samples.size(), 0)};
   std::vector<double> predicted;
   std::size_t at = 0, s = 0;
   for (const DriveSegment* segment : segmentsOf(pointersTo(records))) {
     if (!runFree(model, *segment, (*initial)[s++], predicted)) return std::nullopt;
     while (drive.samples[at].stamp != segment->stamps.front()) ++at;
-    const auto size = static_cast<Eigen::Index>(segment->size());
-    for (Eigen::Index k = 0; k < size; ++k, ++at) {
-      const auto sample = static_cast<std::size_t>(k);
-      left.values[static_cast<Eigen::Index>(at)] = segment->sprung[sample] - predicted[sample];
-      left.room[at] = 1 + std::min(k, size - 1 - k);
+    for (std::size_t k = 0; k < segment->size(); ++k, ++at) {
+      left.values[at] = segment->sprung[k] - predicted[k];
+      left.room[at] = 1 + std::min(k, segment->size() - 1 - k);
     }
   }
   return left;
@@ -158,7 +155,7 @@ class Covariances {
   }
 
   double operator()(std::size_t a, std::size_t b, Eigen::Index lag) const {
-    return values_[(a * num_ + b) * static_cast<std::size_t>(2 * most_ + 1) + static_cast<std::size_t>(lag + most_)];
+    return values_[(a * num_ + b) * (2 * most_ + 1) + (lag + most_)];
   }
 
  private:
@@ -174,18 +171,17 @@ Weights weightsOf(std::size_t strut, std::size_t num_struts, const Covariances& 
   std::vector<std::size_t> others;
   for (std::size_t j = 0; j < num_struts; ++j)
     if (j != strut) others.push_back(j);
-  const Eigen::Index lags = 2 * reach + 1, unknowns = lags * static_cast<Eigen::Index>(others.size());
+  const Eigen::Index lags = 2 * reach + 1, unknowns = lags * others.size();
   Eigen::MatrixXd moments(unknowns, unknowns);
   Eigen::VectorXd target(unknowns);
   for (Eigen::Index a = 0; a < unknowns; ++a) {
-    const std::size_t of_a = others[static_cast<std::size_t>(a / lags)];
+    const std::size_t of_a = others[a / lags];
     target[a] = covariance(of_a, strut, reach - a % lags);
-    for (Eigen::Index b = 0; b < unknowns; ++b)
-      moments(a, b) = covariance(of_a, others[static_cast<std::size_t>(b / lags)], b % lags - a % lags);
+    for (Eigen::Index b = 0; b < unknowns; ++b) moments(a, b) = covariance(of_a, others[b / lags], b % lags - a % lags);
   }
   moments.diagonal().array() += kVehicleTuning.model_variance;
   const Eigen::VectorXd solution = solveSymmetric(moments, target);
-  return Eigen::Map<const Weights>(solution.data(), lags, static_cast<Eigen::Index>(others.size()));
+  return Eigen::Map<const Weights>(solution.data(), lags, others.size());
 }
 
 /// @return the samples of which all is known that the others tell of their noise, without it.
@@ -200,9 +196,7 @@ Drive without(const Weights& weights, std::size_t strut, const Drive& drive, con
     for (std::size_t j = 0; j < left.size() && is_known; ++j) {
       if (j == strut) continue;
       is_known = left[j].room[k] > reach;
-      if (is_known)
-        predicted +=
-            weights.col(column++).dot(left[j].values.segment(static_cast<Eigen::Index>(k) - reach, weights.rows()));
+      if (is_known) predicted += weights.col(column++).dot(left[j].values.segment(k - reach, weights.rows()));
     }
     if (!is_known) continue;
     cleaned.samples.push_back(drive.samples[k]);
@@ -223,7 +217,7 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   for (const StrutDrives& drive : drives) of_drives.push_back(leftOf(drive, period, models));
   const auto runs_away = [](const std::vector<Left>& left) { return left.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
-  const auto reach = static_cast<Eigen::Index>(std::lround(kVehicleTuning.noise_reach / period));
+  const Eigen::Index reach = std::lround(kVehicleTuning.noise_reach / period);
   const Covariances covariance(of_noise, 2 * reach);
   for (std::size_t i = 0; i < noise.size(); ++i) {
     const Weights weights = weightsOf(i, noise.size(), covariance, reach);

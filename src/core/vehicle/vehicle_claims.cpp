@@ -24,11 +24,11 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 
 VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s,
                              const StrutPlaces& places, int most_blocks)
-    : n_(static_cast<Eigen::Index>(struts)),
-      forces_(static_cast<Eigen::Index>(forces)),
+    : n_(struts),
+      forces_(forces),
       s_(s),
       places_(places),
-      columns_(static_cast<std::size_t>(s.size()), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
+      columns_(s.size(), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
       products_(columns_.size()) {
   whole_.setZero(2 * n_, 2 * n_);
   measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
@@ -40,13 +40,12 @@ void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen:
   Eigen::MatrixXcd columns(6 * n_ + forces_, s_.size());
   columns.bottomRows(forces_) = forces.matrix().transpose();
   for (std::size_t p = 0; p < 3; ++p) {
-    const auto first = static_cast<Eigen::Index>(p) * 2 * n_;
-    columns.middleRows(first, n_) = wheels[p].matrix().transpose();
-    columns.middleRows(first + n_, n_) = tops[p].matrix().transpose();
+    columns.middleRows(2 * p * n_, n_) = wheels[p].matrix().transpose();
+    columns.middleRows((2 * p + 1) * n_, n_) = tops[p].matrix().transpose();
   }
   whole_ += (columns.topRows(2 * n_) * columns.topRows(2 * n_).adjoint()).real();
   columns.array().rowwise() /= (s_ * s_).transpose();  // displacements, which a bounce has most of
-  for (Eigen::Index k = 0; k < s_.size(); ++k) columns_[static_cast<std::size_t>(k)].col(blocks_) = columns.col(k);
+  for (Eigen::Index k = 0; k < s_.size(); ++k) columns_[k].col(blocks_) = columns.col(k);
   ++blocks_;
 }
 
@@ -66,7 +65,7 @@ Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXcd all = Eigen::VectorXcd::Ones(size);
   for (std::size_t k = 0; k < products_.size(); ++k) {
-    const Eigen::ArrayXcd turn = (s_[static_cast<Eigen::Index>(k)] * delays.array()).exp();
+    const Eigen::ArrayXcd turn = (s_[k] * delays.array()).exp();
     all.head(6 * n_) = turn.matrix().replicate(3, 1);
     sum += (all.asDiagonal() * products_[k] * all.conjugate().asDiagonal()).real();
   }
@@ -105,8 +104,8 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
   std::vector<double> left;
   for (const double size : sizes) left.push_back(fit(hypothesis, size).unexplained);
   const auto best = std::min_element(left.begin(), left.end()) - left.begin();
-  found.size = sizes[static_cast<std::size_t>(best)];
-  found.unexplained = left[static_cast<std::size_t>(best)];
+  found.size = sizes[best];
+  found.unexplained = left[best];
   if (sizes.size() == 1) return found;
   double step = sizes[1] - sizes[0], curvature = 0.0;
   for (int i = 0; i < kVehicleTuning.refinements; ++i, step *= 0.5) {
@@ -129,13 +128,10 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
 }
 
 VehicleMistake VehicleClaims::sameOrAlike() const {
-  const auto pairOf = [](Eigen::Index i, Eigen::Index j) {
-    return StrutPair(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-  };
   for (Eigen::Index i = 0; i < n_; ++i)
     for (Eigen::Index j = i + 1; j < n_; ++j) {
-      if (notShared(whole_, i, j) < kRounding) return {Kind::kSameWheels, pairOf(i, j)};
-      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kRounding) return {Kind::kSameTops, pairOf(i, j)};
+      if (notShared(whole_, i, j) < kRounding) return {Kind::kSameWheels, StrutPair(i, j)};
+      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kRounding) return {Kind::kSameTops, StrutPair(i, j)};
     }
   const Eigen::MatrixXd wheels = whole_.topLeftCorner(n_, n_), inverse = wheels.inverse();
   VehicleMistake found;
@@ -147,7 +143,7 @@ VehicleMistake VehicleClaims::sameOrAlike() const {
     Eigen::Index partner = i == 0 ? 1 : 0;
     for (Eigen::Index j = 0; j < n_; ++j)
       if (j != i && notShared(wheels, i, j) < notShared(wheels, i, partner)) partner = j;
-    found = {Kind::kAlike, pairOf(i, partner)};
+    found = {Kind::kAlike, StrutPair(i, partner)};
   }
   return found;
 }

@@ -218,13 +218,13 @@ void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& for
   }
   for (auto sensor = sensors.begin() + num_imus; sensor != sensors.end(); ++sensor) {
     sensor->stream = options.size();
-    const auto number = static_cast<std::size_t>(sensor - sensors.begin());
+    const std::size_t number = sensor - sensors.begin();
     options.insert(options.end(), sensor->fields.size(), StreamOptions{number, true, true});
   }
   for (const VehicleLayout::KnownForce& force : forces) {
     const std::vector<std::size_t>& fields = ofTopic(force.topic)->fields;
     const auto place = std::find(fields.begin(), fields.end(), force.field) - fields.begin();
-    channels.known_forces.push_back(ofTopic(force.topic)->stream + static_cast<std::size_t>(place));
+    channels.known_forces.push_back(ofTopic(force.topic)->stream + place);
   }
 }
 

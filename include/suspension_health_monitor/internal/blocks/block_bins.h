@@ -67,8 +67,8 @@ class NoiseBands {
   }
 
   int count() const { return static_cast<int>(first_.size()); }
-  int first(int band) const { return first_[static_cast<std::size_t>(band)]; }  ///< bin, counted from the lowest used
-  int size(int band) const { return size_[static_cast<std::size_t>(band)]; }
+  int first(int band) const { return first_[band]; }  ///< bin, counted from the lowest used
+  int size(int band) const { return size_[band]; }
 
  private:
   std::vector<int> first_, size_;
