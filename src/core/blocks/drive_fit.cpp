@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
@@ -12,12 +11,6 @@ double BlockWeights::of(const Eigen::Ref<const Eigen::ArrayXd>& power) const {
   return times > kBlockTuning.full ? kBlockTuning.full * kBlockTuning.full / (times * times) : 1.0;
 }
 
-double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
-  BandVector power(bands.count());
-  for (int i = 0; i < bands.count(); ++i) power[i] = residualPower(block.bands[i].moments, theta) / bands.size(i);
-  return of(power.array());
-}
-
 double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
   const Eigen::Index p = theta.size();
   BlockVector linear = theta;
@@ -26,6 +19,12 @@ double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
   for (Eigen::Index j = 0; j < p; ++j)
     power += linear[j] * (linear[j] * moments(j, j) + 2.0 * moments.col(j).head(j).dot(linear.head(j)));
   return std::max(power, 0.0);
+}
+
+BandVector residualPowers(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) {
+  BandVector powers(bands.count());
+  for (int i = 0; i < bands.count(); ++i) powers[i] = residualPower(block.bands[i].moments, theta) / bands.size(i);
+  return powers;
 }
 
 BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale) {
@@ -77,7 +76,7 @@ DriveFit::DriveFit(const BlockBand& band, const BlockColumns& columns)
 
 void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const BlockVector& theta) {
   ++blocks_;
-  const double weight = weights.of(block, bands_, theta);
+  const double weight = weights.of(residualPowers(block, bands_, theta).array());
   weight_ += weight;
   for (int i = 0; i < bands_.count(); ++i) {
     const StrutBlock::Band& band = block.bands[i];

@@ -154,7 +154,7 @@ void FourierIntegrals::add(const Reading& reading, double weight, Phases& phases
 
 void FourierIntegrals::finishUntil(long index) {
   if (index == open_) return;
-  Half& half = slot(open_);
+  Half& half = halves_[open_ % kHalves];
   half.index = open_;
   half.is_complete = is_whole_;
   const Eigen::Index from = band_.first - 2, size = band_.spectrumSize();  // element i is bin i + 1

@@ -20,19 +20,12 @@ bool WindowEstimate::isUsable() const {
 
 WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks)
     : length_(band.length), bands_(band), columns_(columns) {
-  const Eigen::Index p = columns.numParameters();
+  const int p = columns.numParameters();
   power_.setZero(bands_.count(), most_blocks);
   weight_.setOnes(most_blocks);
   present_ = weight_;
   versions_.assign(most_blocks, 0);
-  sums_.resize(bands_.count());
-  for (Sum& each : sums_) {
-    each.information.resize(p, p);
-    each.instruments.resize(p, p);
-    each.moments.resize(p + 1, p + 1);
-    each.score.resize(p);
-    each.share.resize(p);
-  }
+  sums_.assign(bands_.count(), StrutBlock::Equations(p));
   weights_.noise.setOnes(bands_.count());
   weights_.share_scale = weights_.noise;
   normal_.setZero(p, p);
@@ -86,7 +79,7 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   }
   if (gathered_ == 0) {
     sum_of_weights_ = 0.0;
-    for (Sum& each : sums_) each.setZero();
+    for (StrutBlock::Equations& each : sums_) each.setZero();
   }
   for (; gathered_ < blocks_; ++gathered_) {
     version(gathered_) = newest(gathered_).version;
@@ -95,31 +88,11 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   }
 }
 
-void WindowFit::Sum::setZero() {
-  information.setZero();
-  instruments.setZero();
-  moments.setZero();
-  score.setZero();
-  share.setZero();
-  wheel_power = 0.0;
-}
-
-void WindowFit::Sum::add(double weight, const StrutBlock::Band& band) {
-  information += weight * band.information;
-  instruments += weight * band.instruments;
-  moments += weight * band.moments;
-  score += weight * band.score;
-  share += weight * band.share;
-  wheel_power += weight * band.wheel_power;
-}
-
 // How much each block counts.
 // @return true if that has changed.
 bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
   for (int b = 0; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[b];
-    for (int i = 0; i < bands_.count(); ++i)
-      power_(i, b) = residualPower(block.bands[i].moments, theta) / bands_.size(i);
+    power_.col(b) = residualPowers(*blocks[b], bands_, theta).array();
     present_[blocks_ - 1 - b] = weights_.of(power_.col(b));
   }
   auto present = present_.head(blocks_), weight = weight_.head(blocks_);
@@ -135,7 +108,7 @@ void WindowFit::measureNoise(const BlockVector& theta) {
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
-    const Sum& sum = sums_[i];
+    const StrutBlock::Equations& sum = sums_[i];
     const double wheel = sum.wheel_power / bands_.size(i), power = residualPower(sum.moments, theta) / bands_.size(i);
     // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
     // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
@@ -152,7 +125,7 @@ void WindowFit::sum(const BlockPrior& prior) {
   normal_.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
   right_ = normal_.diagonal().cwiseProduct(prior.mean);
   for (int i = 0; i < bands_.count(); ++i) {
-    const Sum& sum = sums_[i];
+    const StrutBlock::Equations& sum = sums_[i];
     const double noise = weights_.noise[i], scale = weights_.share_scale[i];
     BlockVector score = (sum.score + scale * sum.share) / noise;
     score[kBlockWheelShare] *= scale;
@@ -179,7 +152,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   double body = 0.0, unexplained = 0.0, wheel = 0.0, rate = 0.0, travel = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 4> of_quarter = Eigen::Matrix<double, 2, 4>::Zero();
-  for (const Sum& each : sums_) unexplained += residualPower(each.moments, result.theta);
+  for (const StrutBlock::Equations& each : sums_) unexplained += residualPower(each.moments, result.theta);
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[b];
     const double weight = weight_[blocks_ - 1 - b];

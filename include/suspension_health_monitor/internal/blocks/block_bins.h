@@ -50,16 +50,10 @@ class NoiseBands {
   static constexpr double kRatio = 1.25;  ///< upper over lower end: a third of an octave
 
   explicit NoiseBands(const BlockBand& band) {
-    int from = 0;
-    const auto nextEdge = [&](int at) {
-      const double end = kRatio * (band.first + at);
-      int by_ratio = at;
-      while (band.first + by_ratio < end) ++by_ratio;
-      return at + kFewestBins > by_ratio ? at + kFewestBins : by_ratio;
-    };
-    while (from < band.size()) {
-      int to = nextEdge(from);
-      if (to > band.size() || band.size() - to < kFewestBins) to = band.size();
+    for (int from = 0; from < band.size();) {
+      int to = from + kFewestBins;
+      while (band.first + to < kRatio * (band.first + from)) ++to;
+      if (band.size() - to < kFewestBins) to = band.size();
       first_.push_back(from);
       size_.push_back(to - from);
       from = to;

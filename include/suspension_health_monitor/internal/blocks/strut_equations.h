@@ -46,17 +46,24 @@ struct StrutBlock {
   /// Sums over the bins of one band, Re(a* b) of complex columns: Z instruments, R regressors, both at theta = at, and
   /// c = e + R at (but for r) what is left of the residual e at theta = 0. So blocks add up, whatever they were
   /// linearised at: e = c - R theta.
-  struct Band {
+  struct Equations {
     Eigen::MatrixXd information;  ///< Z'R
     Eigen::MatrixXd instruments;  ///< Z'Z
     Eigen::VectorXd score;        ///< Z'c
     Eigen::VectorXd share;        ///< Z'R of r, times r
     Eigen::MatrixXd moments;      ///< R'R with c as the last column
     double wheel_power = 0.0;     ///< |W^|^2
-    double body_power = 0.0;      ///< |H_0(Y)|^2
-    double moving_power = 0.0;    ///< |H_0(X)|^2
-    double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
-    double travel_power = 0.0;    ///< |H_0(X - Y)|^2 / |s|^4
+
+    explicit Equations(Eigen::Index parameters);
+    void setZero();
+    void add(double weight, const Equations& other);
+  };
+  struct Band : Equations {
+    using Equations::Equations;
+    double body_power = 0.0;    ///< |H_0(Y)|^2
+    double moving_power = 0.0;  ///< |H_0(X)|^2
+    double rate_power = 0.0;    ///< |H_1(X - Y)|^2 / |s|^4
+    double travel_power = 0.0;  ///< |H_0(X - Y)|^2 / |s|^4
   };
   BlockVector at;
   std::vector<Band> bands;
@@ -99,7 +106,8 @@ class StrutEquations {
   Modulation undelayed_, delayed_;
   long versions_ = 0;
   Eigen::ArrayXcd s_;
-  Eigen::ArrayXcd a_, g_, gain_, x0_, x1_, x2_, wheel_, e_over_g_;
+  Eigen::ArrayXcd a_, g_, gain_, wheel_, e_over_g_;
+  Eigen::ArrayXXcd x_;  // H_0, H_1, H_2 of x
   Eigen::ArrayXd rho_, rho_slope_;
   Eigen::MatrixXcd instruments_, regressors_;  // bins by parameters; the residual is the regressors' last column
 };
