@@ -116,10 +116,4 @@ double MonitorSettings::fewestRows(double horizons, double period) const {
   return std::min(horizons * horizonSamples(period), kShare / forgotten);
 }
 
-HealthOptions MonitorSettings::health() const {
-  HealthOptions health;
-  static_cast<HealthThresholds&>(health) = *this;
-  return health;
-}
-
 }  // namespace suspension_health_monitor

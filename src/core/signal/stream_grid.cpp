@@ -82,17 +82,12 @@ bool GridStreams::rejectStuck() {
   const auto isCompared = [](const GridStream& stream) { return stream.options.required && !stream.options.is_force; };
   for (const GridStream& stream : streams_)
     if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
-  const auto standsStill = [&](const GridStream& stream) {
-    return isCompared(stream) && sensor_is_still_[stream.options.sensor];
-  };
-  const auto moves = [&](const GridStream& stream) {
-    return isCompared(stream) && !sensor_is_still_[stream.options.sensor];
-  };
-  if (std::none_of(streams_.begin(), streams_.end(), standsStill) ||
-      std::none_of(streams_.begin(), streams_.end(), moves))
-    return false;
+  bool stand_still = false, move = false;
+  for (const GridStream& stream : streams_)
+    if (isCompared(stream)) (sensor_is_still_[stream.options.sensor] ? stand_still : move) = true;
+  if (!stand_still || !move) return false;
   for (GridStream& stream : streams_)
-    if (standsStill(stream)) stream.rejected.add(RejectReason::kStuck);
+    if (isCompared(stream) && sensor_is_still_[stream.options.sensor]) stream.rejected.add(RejectReason::kStuck);
   return true;
 }
 

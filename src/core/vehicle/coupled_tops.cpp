@@ -121,13 +121,15 @@ void CoupledTops::setRows(const TopRows& rows) {
   const auto n = wheels_.cols();
   follows_.resize(s_.size());
   for (Eigen::Index b = 0; b < s_.size(); ++b) {
-    const std::complex<double> s2 = s_[b] * s_[b];
-    Small& q = follows_[b];
-    q = rows_.rate * s_[b] + rows_.travel.cast<std::complex<double>>();
-    q.diagonal().array() += s2;
-    lu_.compute(q);
-    q = s2 * lu_.solve(Small::Identity(n, n));
+    lu_.compute(loopAt(b));
+    follows_[b] = s_[b] * s_[b] * lu_.solve(Small::Identity(n, n));
   }
+}
+
+CoupledTops::Small CoupledTops::loopAt(Eigen::Index bin) const {
+  Small loop = rows_.rate * s_[bin] + rows_.travel.cast<std::complex<double>>();
+  loop.diagonal().array() += s_[bin] * s_[bin];
+  return loop;
 }
 
 const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const StrutEquations& equations) {
@@ -167,16 +169,13 @@ void CoupledTops::predict(const std::vector<const StrutBlock*>& blocks, int firs
   for (Eigen::Index j = 0; j < n; ++j) modulation_.apply(0, blocks[j]->wheel, wheels_.col(j));
   for (Eigen::Index k = 0; k < forces_.cols(); ++k)
     modulation_.apply(2, blocks.front()->forces.col(first_force + k), forces_.col(k));
-  Small q(n, n);
   SmallVector right(n), x(n);
   for (Eigen::Index b = 0; b < s_.size(); ++b) {
     // (s^2 I + Q) (X - Z) = s^2 X - s^2 c F
-    q = rows_.rate * s_[b] + rows_.travel.cast<std::complex<double>>();
-    q.diagonal().array() += s_[b] * s_[b];
     x = wheels_.row(b).matrix().transpose();
     right = s_[b] * s_[b] * x;
     if (forces_.cols() > 0) right -= rows_.force * forces_.row(b).matrix().transpose();
-    lu_.compute(q);
+    lu_.compute(loopAt(b));
     travel_.row(b) = lu_.solve(right).array().transpose();
   }
 }

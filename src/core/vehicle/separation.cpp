@@ -9,17 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-// Leads a drive, series by series.
-template <class Begin, class Take>
-void replay(const VehicleDrive& drive, double period, const Begin& begin_series, const Take& take) {
-  const auto& samples = drive.struts.front().samples;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (k == 0 || continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) != Continuity::kContinues)
-      begin_series();
-    take(sampleOf(drive, k));
-  }
-}
-
 void requireOneGrid(const VehicleDrive& drive) {
   const auto& first = drive.struts.front().samples;
   for (const Drive& strut : drive.struts) {
@@ -125,11 +114,12 @@ StrutDrives separateStruts(const VehicleDrive& drive, double period, const BodyR
   VehicleDrive separated{StrutDrives(drive.struts.size())};
   for (std::size_t i = 0; i < drive.struts.size(); ++i)
     separated.struts[i].low_pass.taps = drive.struts[i].low_pass.taps;
-  replay(
-      drive, period, [&] { decoupler.startNewSeries(); },
-      [&](const VehicleSample& sample) {
-        if (const VehicleSample* own = decoupler.push(sample)) append(*own, separated);
-      });
+  const auto& samples = drive.struts.front().samples;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (k > 0 && continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) != Continuity::kContinues)
+      decoupler.startNewSeries();
+    if (const VehicleSample* own = decoupler.push(sampleOf(drive, k))) append(*own, separated);
+  }
   return separated.struts;
 }
 

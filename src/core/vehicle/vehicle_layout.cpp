@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -21,18 +20,11 @@ namespace {
 
 std::string quoted(const std::string& text) { return " = \"" + shortened(text) + '"'; }
 
-bool isLetter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 && static_cast<unsigned char>(c) < 128;
-}
-bool isNameCharacter(char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; }
-
 /// @param more  characters that may stand in the text besides those of a name.
 /// @param first  those that it may begin with besides letters.
 bool isMadeOf(const std::string& text, const std::string& more, const std::string& first) {
-  if (text.empty() || !(isLetter(text[0]) || first.find(text[0]) != std::string::npos)) return false;
-  for (const char c : text)
-    if (!isNameCharacter(c) && more.find(c) == std::string::npos) return false;
-  return true;
+  return text.find_first_of(kLetters + first) == 0 &&
+         text.find_first_not_of(kNameCharacters + more) == std::string::npos;
 }
 
 void checkTopic(const std::string& where, const std::string& topic) {

@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
-#include <cmath>
 #include <sstream>
 
 #include "suspension_health_monitor/internal/base/text.h"
@@ -92,7 +91,7 @@ std::string describeNoPeriod(const std::string& where, std::size_t count) {
 
 std::string describeNoStart(const std::string& where) {
   return "the sample period cannot be measured: too few readings with increasing stamps " + where + " (" +
-         std::to_string(EarlyReadings<double>::kSpacings + 1) + " of each are enough)";
+         std::to_string(EarlyReadings::kSpacings + 1) + " of each are enough)";
 }
 
 std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected) {

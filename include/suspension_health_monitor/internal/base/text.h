@@ -12,6 +12,10 @@ namespace suspension_health_monitor {
 
 inline constexpr double kDay = 86400.0;  ///< [s]; nobody drives for longer: a message names no such time
 
+/// What names are made of.
+inline const std::string kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+inline const std::string kNameCharacters = kLetters + "0123456789_";
+
 /// For a message that refuses an unknown name.
 /// @return "; the nearest known name is ...": the only one that begins like this, or the one with the smallest share of
 /// letters to change (Levenshtein's distance); empty if that is more than half of them.

@@ -138,7 +138,7 @@ class BlockEstimator {
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
   bool has_theta_ = false;
-  double newest_worst_ = 0.0;     // larger relative standard deviation of b1 and b0 by the newest blocks, kWindows[0]
+  double newest_worst_ = 0.0;  // larger relative standard deviation of b1 and b0 by the newest blocks, kWindows[0]
   double reported_worst_ = HUGE_VAL;  // WindowEstimate::worst() of what update() returned last
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;

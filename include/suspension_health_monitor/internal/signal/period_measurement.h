@@ -35,7 +35,6 @@ class PeriodMeasurement {
     const std::optional<Stamp>& last = streams_[stream].last;
     return last && stamp < *last;
   }
-  bool goesBack(Side side, Stamp stamp) const { return goesBack(indexOf(side), stamp); }
 
   /// @return the sampling time [s], nothing until all required streams have shown enough spacings.
   std::optional<double> period() const;
@@ -52,8 +51,6 @@ class PeriodMeasurement {
 };
 
 /// The first readings of several streams, which wait until their stamps have told the sampling time.
-/// @tparam Value  of a reading.
-template <class Value>
 class EarlyReadings {
  public:
   static constexpr std::size_t kSpacings = 50;  ///< of each required stream, to tell the sampling time
@@ -61,7 +58,7 @@ class EarlyReadings {
   struct Reading {
     std::size_t stream;
     Stamp stamp;
-    Value value;
+    std::vector<double> values;
   };
 
   /// @param is_required  by stream; one at least.

@@ -2,9 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
@@ -93,6 +91,8 @@ class CoupledTops {
  private:
   using Small = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStruts, kMostStruts>;
   using SmallVector = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, 0, kMostStruts, 1>;
+
+  Small loopAt(Eigen::Index bin) const;  // s^2 I + Q
 
   Modulation modulation_;
   Eigen::ArrayXcd s_;
