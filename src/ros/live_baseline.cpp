@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
 

@@ -50,10 +50,7 @@ void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values
     grid_->push(sensor, stamp, values);
     return;
   }
-  const VehicleStreams::Sensor& its = streams_.sensors[sensor];
-  const std::size_t next =
-      sensor + 1 < streams_.sensors.size() ? streams_.sensors[sensor + 1].stream : streams_.options.size();
-  const EarlyReadings::Reading reading{sensor, stamp, {values, values + (next - its.stream)}};
+  const EarlyReadings::Reading reading{sensor, stamp, {values, values + streams_.sensors[sensor].count}};
   if (grid_) {  // a sink has thrown while they were replayed
     early_.append(reading);
   } else {

@@ -172,7 +172,7 @@ VehicleLayout takeVehicle(OptionMap& values) {
 
 VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
   const auto add = [&](const std::string& topic, Place place, std::size_t count, const std::string& setting) {
-    sensors.push_back({topic, place, options.size(), setting});
+    sensors.push_back({topic, place, options.size(), count, channels.struts.size(), setting});
     options.insert(options.end(), count, StreamOptions{sensors.size() - 1, place != Place::kRoad});
     return sensors.back().stream;
   };
@@ -205,13 +205,14 @@ void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& for
   };
   for (const VehicleLayout::KnownForce& force : forces) {
     if (ofTopic(force.topic) == sensors.end())
-      sensors.push_back({force.topic, Place::kForce, 0, "known_forces/" + force.name + "/topic"});
+      sensors.push_back({force.topic, Place::kForce, 0, 0, 0, "known_forces/" + force.name + "/topic"});
     ofTopic(force.topic)->fields.push_back(force.field);
   }
   for (auto sensor = sensors.begin() + num_imus; sensor != sensors.end(); ++sensor) {
     sensor->stream = options.size();
+    sensor->count = sensor->fields.size();
     const std::size_t number = sensor - sensors.begin();
-    options.insert(options.end(), sensor->fields.size(), StreamOptions{number, true, true});
+    options.insert(options.end(), sensor->count, StreamOptions{number, true, true});
   }
   for (const VehicleLayout::KnownForce& force : forces) {
     const std::vector<std::size_t>& fields = ofTopic(force.topic)->fields;
