@@ -66,6 +66,8 @@ std::string formatted(const char* format, ...) {
 
 std::string sizeInPercent(double change) { return formatted("%ld %%", std::lround(100.0 * std::abs(change))); }
 
+std::string sideInPercent(double change) { return sizeInPercent(change) + (change < 0.0 ? " below" : " above"); }
+
 std::string percent(double share) { return formatted("%.*f %%", share < 0.01 ? 1 : 0, 100.0 * share); }
 
 std::string describeEnough(double seconds) {

@@ -92,6 +92,9 @@ std::vector<std::string> namesOf(const Records& records) {
 /// @return the size of a change in whole percent, whatever its sign: "12 %".
 std::string sizeInPercent(double change);
 
+/// @return the same and to which side: "12 % below", "12 % above".
+std::string sideInPercent(double change);
+
 /// @return a share in percent, with one decimal below 1 %: "12 %".
 std::string percent(double share);
 
