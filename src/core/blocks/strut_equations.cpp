@@ -13,27 +13,31 @@ Eigen::Map<const Eigen::MatrixXd> asReal(const Eigen::MatrixXcd& columns) {
 
 }  // namespace
 
-StrutBlock::Equations::Equations(Eigen::Index p)
+StrutBlock::Band::Band(Eigen::Index p)
     : information(p, p), instruments(p, p), score(p), share(p), moments(p + 1, p + 1) {
   setZero();
 }
 
-void StrutBlock::Equations::setZero() {
+void StrutBlock::Band::setZero() {
   information.setZero();
   instruments.setZero();
   score.setZero();
   share.setZero();
   moments.setZero();
-  wheel_power = 0.0;
+  wheel_power = body_power = moving_power = rate_power = travel_power = 0.0;
 }
 
-void StrutBlock::Equations::add(double weight, const Equations& other) {
+void StrutBlock::Band::add(double weight, const Band& other) {
   information += weight * other.information;
   instruments += weight * other.instruments;
   score += weight * other.score;
   share += weight * other.share;
   moments += weight * other.moments;
   wheel_power += weight * other.wheel_power;
+  body_power += weight * other.body_power;
+  moving_power += weight * other.moving_power;
+  rate_power += weight * other.rate_power;
+  travel_power += weight * other.travel_power;
 }
 
 StrutEquations::StrutEquations(const BlockBand& band, const BlockColumns& columns)

@@ -25,7 +25,7 @@ WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int mos
   weight_.setOnes(most_blocks);
   present_ = weight_;
   versions_.assign(most_blocks, 0);
-  sums_.assign(bands_.count(), StrutBlock::Equations(p));
+  sums_.assign(bands_.count(), StrutBlock::Band(p));
   weights_.noise.setOnes(bands_.count());
   weights_.share_scale = weights_.noise;
   normal_.setZero(p, p);
@@ -79,7 +79,7 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   }
   if (gathered_ == 0) {
     sum_of_weights_ = 0.0;
-    for (StrutBlock::Equations& each : sums_) each.setZero();
+    for (StrutBlock::Band& each : sums_) each.setZero();
   }
   for (; gathered_ < blocks_; ++gathered_) {
     version(gathered_) = newest(gathered_).version;
@@ -108,7 +108,7 @@ void WindowFit::measureNoise(const BlockVector& theta) {
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
-    const StrutBlock::Equations& sum = sums_[i];
+    const StrutBlock::Band& sum = sums_[i];
     const double wheel = sum.wheel_power / bands_.size(i), power = residualPower(sum.moments, theta) / bands_.size(i);
     // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
     // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
@@ -125,7 +125,7 @@ void WindowFit::sum(const BlockPrior& prior) {
   normal_.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
   right_ = normal_.diagonal().cwiseProduct(prior.mean);
   for (int i = 0; i < bands_.count(); ++i) {
-    const StrutBlock::Equations& sum = sums_[i];
+    const StrutBlock::Band& sum = sums_[i];
     const double noise = weights_.noise[i], scale = weights_.share_scale[i];
     BlockVector score = (sum.score + scale * sum.share) / noise;
     score[kBlockWheelShare] *= scale;
@@ -152,17 +152,18 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   double body = 0.0, unexplained = 0.0, wheel = 0.0, rate = 0.0, travel = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 4> of_quarter = Eigen::Matrix<double, 2, 4>::Zero();
-  for (const StrutBlock::Equations& each : sums_) unexplained += residualPower(each.moments, result.theta);
+  for (const StrutBlock::Band& each : sums_) {
+    unexplained += residualPower(each.moments, result.theta);
+    body += each.body_power;
+    wheel += each.moving_power;
+    rate += each.rate_power;
+    travel += each.travel_power;
+  }
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[b];
     const double weight = weight_[blocks_ - 1 - b];
     for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[i];
-      body += weight * band.body_power;
-      rate += weight * band.rate_power;
-      travel += weight * band.travel_power;
-      wheel += weight * band.moving_power;
-      const Eigen::Vector2d own = weight / weights_.noise[i] * band.information.diagonal().head<2>();
+      const Eigen::Vector2d own = weight / weights_.noise[i] * block.bands[i].information.diagonal().head<2>();
       of_quarter.col(4 * b / blocks_) += own;
       age += own * (blocks.back()->end - block.end);
     }

@@ -13,6 +13,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+bool isProven(const Measured& number) { return number.value > kProven * number.stddev; }
+
 /// @return x or y less its middle, over its mean size; zero where all are alike.
 Eigen::VectorXd scaled(const Eigen::VectorXd& values, double& middle, double& scale) {
   middle = values.mean();
@@ -152,12 +154,6 @@ std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vecto
   }
   return result;
 }
-
-namespace {
-
-bool isProven(const Measured& number) { return number.value > kProven * number.stddev; }
-
-}  // namespace
 
 Eigen::Array2d BodyFitResult::modelVariances(std::size_t strut, const Eigen::Vector2d& own,
                                              double friction_damping) const {

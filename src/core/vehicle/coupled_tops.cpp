@@ -9,26 +9,29 @@ VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleChannels& veh
       vehicle_(vehicle),
       modulation_(band),
       phases_(band),
+      num_effects_(effects),
+      streams_(vehicle.struts.size(), FourierIntegrals(band, effects > 0 ? 1 : 2)),
       channel_(band.spectrumSize()),
       derivative_(band.size()) {
   for (const VehicleChannels::Strut& strut : vehicle.struts) {
-    wheels_.emplace_back(band, effects > 0 ? 1 : 2);
-    own_of_.push_back(own_.size());
-    if (strut.sprung) own_.emplace_back(band, 1);
+    top_of_.push_back(streams_.size());
+    if (strut.sprung) streams_.emplace_back(band, 1);
   }
-  if (vehicle.numTopsOfBody() > 0) body_.emplace_back(band, kBodyChannels);
-  for (std::size_t i = 0; i < vehicle.known_forces.size(); ++i) forces_.emplace_back(band, 1);
-  if (effects > 0) effects_.emplace_back(band, effects);
+  body_ = streams_.size();
+  if (vehicle.numTopsOfBody() > 0) streams_.emplace_back(band, kBodyChannels);
+  forces_ = streams_.size();
+  streams_.resize(forces_ + vehicle.known_forces.size(), FourierIntegrals(band, 1));
+  if (effects > 0) streams_.emplace_back(band, effects);
 }
 
 void VehicleSpectra::push(const VehicleReading& reading, double time, double direction) {
   using Sensor = VehicleReading::Sensor;
   const auto& values = reading.values;
-  if (reading.sensor == Sensor::kTop) return own_[own_of_[reading.place]].push(time, values.data(), phases_);
-  if (reading.sensor == Sensor::kForce) return forces_[reading.place].push(time, values.data(), phases_);
+  if (reading.sensor == Sensor::kTop) return streams_[top_of_[reading.place]].push(time, values.data(), phases_);
+  if (reading.sensor == Sensor::kForce) return streams_[forces_ + reading.place].push(time, values.data(), phases_);
   if (reading.sensor == Sensor::kWheel) {
     const double of_wheel[] = {values[0], direction};
-    return wheels_[reading.place].push(time, of_wheel, phases_);
+    return streams_[reading.place].push(time, of_wheel, phases_);
   }
   const double wx = values[3], wy = values[4], wz = values[5];
   std::array<double, kBodyChannels> of_body;
@@ -38,50 +41,43 @@ void VehicleSpectra::push(const VehicleReading& reading, double time, double dir
   of_body[kWzWx] = wz * wx;
   of_body[kWzWy] = wz * wy;
   of_body[kWx2Wy2] = wx * wx + wy * wy;
-  body_.front().push(time, of_body.data(), phases_);
+  streams_[body_].push(time, of_body.data(), phases_);
 }
 
 void VehicleSpectra::restart() {
-  for (auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
-    for (FourierIntegrals& stream : *streams) stream.restart();
-}
-
-template <class Predicate>
-bool VehicleSpectra::areAll(const Predicate& predicate) const {
-  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
-    if (!std::all_of(streams->begin(), streams->end(), predicate)) return false;
-  return true;
+  for (FourierIntegrals& stream : streams_) stream.restart();
 }
 
 bool VehicleSpectra::isPassed(long half) const {
-  return areAll([&](const FourierIntegrals& stream) { return stream.openHalf() > half; });
+  return std::all_of(streams_.begin(), streams_.end(),
+                     [&](const FourierIntegrals& stream) { return stream.openHalf() > half; });
 }
 
 bool VehicleSpectra::isWhole(long half) const {
-  return areAll(
-      [&](const FourierIntegrals& stream) { return stream.half(half - 1) != nullptr && stream.half(half) != nullptr; });
+  return std::all_of(streams_.begin(), streams_.end(), [&](const FourierIntegrals& stream) {
+    return stream.half(half - 1) != nullptr && stream.half(half) != nullptr;
+  });
 }
 
 long VehicleSpectra::newestOpen() const {
   long newest = 0;
-  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
-    for (const FourierIntegrals& stream : *streams) newest = std::max(newest, stream.openHalf());
+  for (const FourierIntegrals& stream : streams_) newest = std::max(newest, stream.openHalf());
   return newest;
 }
 
 void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
   block.end = static_cast<double>(half + 1) * band_.length / 2.0;
-  wheels_[strut].sumHalves(half, 0, block.wheel);
+  streams_[strut].sumHalves(half, 0, block.wheel);
   Eigen::Index column = 0;
   const auto fillForce = [&](const FourierIntegrals& stream, Eigen::Index channel) {
     stream.sumHalves(half, channel, channel_);
     block.forces.col(column++) = channel_;
   };
-  if (effects_.empty()) fillForce(wheels_[strut], 1);
-  while (column + forces_.size() < static_cast<std::size_t>(block.forces.cols())) fillForce(effects_.front(), column);
-  for (const FourierIntegrals& force : forces_) fillForce(force, 0);
+  if (num_effects_ == 0) fillForce(streams_[strut], 1);
+  for (std::size_t j = 0; j < num_effects_; ++j) fillForce(streams_.back(), j);
+  for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k) fillForce(streams_[forces_ + k], 0);
   if (!vehicle_.struts[strut].sprung) return fillByBody(*vehicle_.struts[strut].position, half, block);
-  own_[own_of_[strut]].sumHalves(half, 0, channel_);
+  streams_[top_of_[strut]].sumHalves(half, 0, channel_);
   for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(p));
 }
 
@@ -99,7 +95,7 @@ void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, Stru
                         {kWx2Wy2, 0, -position.z()}};
   block.body.setZero();
   for (const Part& part : parts) {
-    body_.front().sumHalves(half, part.channel, channel_);
+    streams_[body_].sumHalves(half, part.channel, channel_);
     for (std::size_t p = 0; p < 3; ++p) {
       modulation_.apply(p + part.derivatives, channel_, derivative_);
       block.body.col(p) += part.factor * derivative_;

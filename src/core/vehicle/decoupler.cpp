@@ -6,6 +6,18 @@
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+// The natural period of the slowest strut [samples], even.
+int naturalPeriod(const std::vector<StrutModel>& models, double period) {
+  double slowest = 0.0;
+  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
+  return 2 *
+         std::max(1, static_cast<int>(std::lround(std::min(slowest, kVehicleTuning.longest_period) / (2.0 * period))));
+}
+
+}  // namespace
+
 int TravelObserver::delayOf(int natural_period) {
   return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
 }
@@ -52,18 +64,6 @@ void TravelObserver::startNewSeries() {
   for (LinearIntegralFilter& slow : slow_) slow.reset();
   for (auto& values : recent_) values.clear();
 }
-
-namespace {
-
-// That of the slowest strut [samples], even.
-int naturalPeriod(const std::vector<StrutModel>& models, double period) {
-  double slowest = 0.0;
-  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
-  return 2 *
-         std::max(1, static_cast<int>(std::lround(std::min(slowest, kVehicleTuning.longest_period) / (2.0 * period))));
-}
-
-}  // namespace
 
 Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<StrutModel>& models,
                      const std::vector<double>& low_pass)

@@ -46,24 +46,21 @@ struct StrutBlock {
   /// Sums over the bins of one band, Re(a* b) of complex columns: Z instruments, R regressors, both at theta = at, and
   /// c = e + R at (but for r) what is left of the residual e at theta = 0. So blocks add up, whatever they were
   /// linearised at: e = c - R theta.
-  struct Equations {
+  struct Band {
     Eigen::MatrixXd information;  ///< Z'R
     Eigen::MatrixXd instruments;  ///< Z'Z
     Eigen::VectorXd score;        ///< Z'c
     Eigen::VectorXd share;        ///< Z'R of r, times r
     Eigen::MatrixXd moments;      ///< R'R with c as the last column
     double wheel_power = 0.0;     ///< |W^|^2
+    double body_power = 0.0;      ///< |H_0(Y)|^2
+    double moving_power = 0.0;    ///< |H_0(X)|^2
+    double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
+    double travel_power = 0.0;    ///< |H_0(X - Y)|^2 / |s|^4
 
-    explicit Equations(Eigen::Index parameters);
+    explicit Band(Eigen::Index parameters);
     void setZero();
-    void add(double weight, const Equations& other);
-  };
-  struct Band : Equations {
-    using Equations::Equations;
-    double body_power = 0.0;    ///< |H_0(Y)|^2
-    double moving_power = 0.0;  ///< |H_0(X)|^2
-    double rate_power = 0.0;    ///< |H_1(X - Y)|^2 / |s|^4
-    double travel_power = 0.0;  ///< |H_0(X - Y)|^2 / |s|^4
+    void add(double weight, const Band& other);
   };
   BlockVector at;
   std::vector<Band> bands;

@@ -169,7 +169,7 @@ class WindowFit {
   Eigen::ArrayXXd power_;  // of e per bin, bands by blocks
   Eigen::ArrayXd weight_;  // of blocks, the newest first
   Eigen::ArrayXd present_;
-  std::vector<StrutBlock::Equations> sums_;  // by band, over the newest gathered_ blocks, weighted
+  std::vector<StrutBlock::Band> sums_;  // by band, over the newest gathered_ blocks, weighted
   std::vector<long> versions_;
   int gathered_ = 0;
   double sum_of_weights_ = 0.0;

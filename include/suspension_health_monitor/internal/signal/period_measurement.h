@@ -16,14 +16,11 @@ namespace suspension_health_monitor {
 /// say.
 class PeriodMeasurement {
  public:
-  /// Of a strut's streams, numbered by Side.
-  static inline const std::vector<bool> kOfOneStrut{true, true, false};
-
   static constexpr std::size_t kFewestOfRecording = 10;  ///< spacings that tell the period of something recorded
 
   /// @param spacings_wanted  of each required stream before a period is given, >= 1.
-  /// @param is_required  by stream; one at least.
-  explicit PeriodMeasurement(std::size_t spacings_wanted, const std::vector<bool>& is_required = kOfOneStrut)
+  /// @param is_required  by stream; one at least. By default those of a strut alone, numbered by Side.
+  explicit PeriodMeasurement(std::size_t spacings_wanted, const std::vector<bool>& is_required = {true, true, false})
       : spacings_wanted_(spacings_wanted), is_required_(is_required), streams_(is_required.size()) {}
 
   /// @return false if the stamp is the same as the one before: it tells nothing.
