@@ -216,7 +216,7 @@ std::vector<double> takeNumbers(const std::string& group, const OptionMap& setti
 
 double toNumber(const std::string& name, const OptionValue& value, double min, double max) {
   double number = min;
-  const option_table::Bound option{{}, name, "SI", "a number", &number, min, max, {}};
+  const option_table::Bound option{{{}, name, "SI", "a number", min, max, {}}, &number};
   option_table::assign(option, value);
   option_table::check(option);
   return number;
