@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -81,16 +82,16 @@ class EarlyReadings {
 
   /// @return the oldest of those that wait, which waits no longer; nothing if there is none.
   std::optional<Reading> next() {
-    if (next_ < waiting_.size()) return std::move(waiting_[next_++]);
-    waiting_ = {};
-    next_ = 0;
-    return std::nullopt;
+    if (waiting_.empty()) return std::nullopt;
+    Reading oldest = std::move(waiting_.front());
+    waiting_.pop_front();
+    return oldest;
   }
 
   /// A reading that has to wait though the sampling time is known: older ones do.
   void append(Reading reading) { waiting_.push_back(std::move(reading)); }
 
-  bool isEmpty() const { return next_ == waiting_.size(); }
+  bool isEmpty() const { return waiting_.empty(); }
 
   /// @return those of one stream that were kept out, and of all.
   const RejectCounts& rejected(std::size_t stream) const { return rejected_[stream]; }
@@ -113,8 +114,7 @@ class EarlyReadings {
   std::vector<bool> is_required_;
   PeriodMeasurement measurement_;
   std::size_t most_ = 0;
-  std::vector<Reading> waiting_;
-  std::size_t next_ = 0;
+  std::deque<Reading> waiting_;
   std::vector<RejectCounts> rejected_;
 };
 

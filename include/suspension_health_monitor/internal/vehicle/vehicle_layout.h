@@ -10,7 +10,7 @@
 
 #include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
-#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 
