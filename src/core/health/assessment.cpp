@@ -182,12 +182,12 @@ void HealthAssessment::judge(const StrutChange& change) {
   now.payload_change = change.payload;
   now.load_doubt = doubtOfLoad(change);
   const auto part = [&](double size, double stddev, const LogChange& measured, double warn, double error) {
-    PartChange part{size, stddev, logSize(size) / stddev, measured.stddev, warn, error};
+    PartChange its{size, stddev, logSize(size) / stddev, measured.stddev, warn, error};
     if (change.load_alone) {  // NaN: not known
-      part.significance = std::fmin(part.significance, change.load_alone->distance);
-      part.blind = std::fmax(part.blind, change.apartStddev());
+      its.significance = std::fmin(its.significance, change.load_alone->distance);
+      its.blind = std::fmax(its.blind, change.apartStddev());
     }
-    return part;
+    return its;
   };
   if (change.damping) {
     const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured.damping,

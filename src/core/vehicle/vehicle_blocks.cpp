@@ -247,14 +247,13 @@ void VehicleBlocks::updateModel() {
     };
     is_stale = is_stale || moved(rows_.rate, before.rate) || moved(rows_.travel, before.travel);
   }
-  if (is_stale) {
-    model_->setRows(rows_);
-    if (!has_model_)
-      for (BlockEstimator& each : estimators_) each.forgetSlow();
-    has_model_ = true;
-    for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
-    to_predict_ = estimators_.front().count();
-  }
+  if (!is_stale) return;
+  model_->setRows(rows_);
+  if (!has_model_)
+    for (BlockEstimator& each : estimators_) each.forgetSlow();
+  has_model_ = true;
+  for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
+  to_predict_ = estimators_.front().count();
 }
 
 // Blocks that are too short lose the bounce below their lowest bin, of two periods in a block, the more of it the
