@@ -101,8 +101,4 @@ std::vector<double> StrutTops::lowPass() const {
   return {filter_->lowPass().data(), filter_->lowPass().data() + filter_->lowPass().size()};
 }
 
-void StrutTops::reset() {
-  if (filter_) filter_->reset();
-}
-
 }  // namespace suspension_health_monitor

@@ -97,8 +97,6 @@ class MotionFilter {
   /// @return the instant delay() samples ago, valid until the next call; nullptr while the filter fills.
   const Instant* push(Stamp stamp, const std::vector<double>& signals);
 
-  void reset() { stamps_.clear(); }
-
   int delay() const { return delay_; }                       ///< samples; so late is an instant
   const Eigen::VectorXd& lowPass() const { return value_; }  ///< taps of H, 2 delay() + 1
   double flat() const { return flat_; }                      ///< [Hz]

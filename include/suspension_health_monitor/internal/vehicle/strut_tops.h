@@ -37,8 +37,6 @@ class StrutTops {
   /// @return taps of the low-pass filter that samples have passed; none: nothing is filtered.
   std::vector<double> lowPass() const;
 
-  void reset();
-
  private:
   void collect(const GridInstant& instant);
   void spread(const std::vector<double>& values, const std::vector<double>& rates);
