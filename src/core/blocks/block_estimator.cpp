@@ -7,10 +7,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-// At rest now and then a strut is found in the noise: by chance p parameters explain p of the numbers of half
-// overlapped blocks. And a body that something else moves at one frequency, as the wind rocks a parked car, drags its
-// wheel along like some strut with hardly any damper: by more than the resonance of a strut that is damped by 0.115
-// makes of a wheel's motion, or with half as much unexplained as the wheel moves at all.
+// A fit may find a strut where there is none. In noise, as of a vehicle at rest, p parameters explain p of the numbers
+// of half overlapped blocks by chance. And where something else moves the body at one frequency, as the wind rocks a
+// parked car, the body drags its wheel along as if by a strut with hardly any damper: then the body moves more than the
+// resonance of a strut with a damping ratio of 0.115 would make it, or what is not explained of its motion has more than
+// half of the power of the wheel's motion.
 bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
   const double values = band.size() * (estimate.blocks + 1.0);
   const double least_explained = 2.0 * static_cast<double>(estimate.theta.size()) / values;

@@ -13,7 +13,8 @@ bool isSlow(int i) { return i == kBlockDelay || i == kBlockGain || i >= kNumBloc
 
 }  // namespace
 
-// Of a strut that bounces far faster than a car's no more than what a car's may be off by, in its own time.
+// Of the prior. A strut that bounces far faster than a car's has shorter blocks, and a delay that is shorter by as
+// much.
 double BlockEstimator::delayStddev() const {
   return std::min(1.0, equations_.band().length / BlockOptions().length) * options_.delay_stddev;
 }

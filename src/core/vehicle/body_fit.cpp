@@ -104,7 +104,7 @@ bool BodyFit::hasNegativeBar(const Solution& solution) const {
   return false;
 }
 
-// Where laws with memory look like bars the body that goes with them is none.
+// Laws with memory may look like bars. The body that fits together with such bars is one that no vehicle has.
 bool BodyFit::isVehicle(const Eigen::Vector4d& numbers) const {
   const auto isPlausible = [&](int axis, Eigen::Index column) {
     const double most = kVehicleTuning.longest_gyration * scale_[axis] * q_.col(column).cwiseAbs().maxCoeff();
@@ -114,10 +114,10 @@ bool BodyFit::isVehicle(const Eigen::Vector4d& numbers) const {
 }
 
 bool BodyFit::isNamed(const Solution& without, const Solution& with, const std::vector<BodyRows>& halves) const {
-  // Multibody vehicles without bars kept a phi of more than 2.5 % with false ones, those with bars 1.1 % with them.
+  // On multibody vehicles without bars a fit with bars left a phi of more than 2.5 %, on those that have bars 1.1 %.
   if (halves.size() < 2 || !(with.phi < kWorthHaving) || !(without.phi > kMuchMore * with.phi)) return false;
   const RigidBody body(q_, pairs_, with.bars);
-  // Of fewer numbers that are left over nobody knows how much is left: two struts fit a bar that is none.
+  // From fewer degrees of freedom the misfit is not known: rows of two struts fit a bar that does not exist.
   if (RigidBodyRows(body, halves.front(), with.phi).degreesOfFreedom() < kFewestForScatter) return false;
   if (!isVehicle(inertia(body.inertia(with.parameters)))) return false;
   std::vector<Solution> parts{with};

@@ -56,7 +56,7 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
   return mapping;
 }
 
-// Of noise that does not go with the wheels and the known forces what as many columns fit in as many blocks.
+// The share of unrelated noise that wheels and known forces, as so many columns, explain by chance in so many blocks.
 double VehicleClaims::noiseShare() const { return static_cast<double>(n_ + forces_) / blocks_; }
 
 // A stream that is late by tau has exp(-s tau) of what happened.
@@ -116,12 +116,13 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
     found.size = std::clamp(found.size + (below - above) / (2.0 * curvature * step), sizes.front(), sizes.back());
     found.unexplained = fit(hypothesis, found.size).unexplained;
   }
-  // Without a minimum, or with one at an end of the range, it is something else.
+  // Without a minimum inside the range this is not the mistake.
   if (!(curvature > 0.0) || found.size <= sizes.front() || found.size >= sizes.back()) {
     found.unexplained = 1.0;
     return found;
   }
-  // Of a sum of squares over as many equations, noise among them; neighbouring bins of a window share half.
+  // How well the minimum of a sum of squares is known by its curvature. Neighbouring bins of a Hann window share half
+  // of what they tell, so that half of the equations count.
   const double equations = 0.5 * blocks_ * 2.0 * static_cast<double>(s_.size() * n_);
   found.stddev = std::sqrt(2.0 * (noise_ + std::max(0.0, found.unexplained)) / (curvature * equations));
   return found;
@@ -158,7 +159,7 @@ bool VehicleClaims::work() {
   else
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
-  // What goes with the wheels, and no strut of theirs makes; links make 0.3 %.
+  // More of the motion that goes with the wheels is left than struts on links leave: 0.3 %.
   if (found_.kind == Kind::kNone && filed_.unexplained > std::max(kWorthHaving, noiseShare() * noise_))
     found_.kind = Kind::kOthers;
   return true;
@@ -174,8 +175,8 @@ bool VehicleClaims::begins() {
   return found_.kind == Kind::kNone;
 }
 
-// Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not, but for its
-// share.
+// Takes of all streams the part that goes with the wheels and the known forces. Noise of other sensors does not go with
+// them, but for the share that chance explains.
 void VehicleClaims::takeBin(std::size_t bin) {
   const auto columns = columns_[bin].leftCols(blocks_);
   const Eigen::MatrixXcd all = columns * columns.adjoint();

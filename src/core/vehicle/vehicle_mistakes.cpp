@@ -52,8 +52,8 @@ bool VehicleMistake::isContradiction() const {
   }
 }
 
-// At bounce and below a body follows its wheels, in pitch and roll as in heave. A gyro may have died: of the newest
-// half.
+// At the bounce and below a body follows its wheels, in pitch and roll as in heave. The gyro may have died during the
+// drive, so that only the newest half of the blocks counts.
 bool VehicleClaims::hasDeadGyro() const {
   const Eigen::Index count = (blocks_ + 1) / 2;
   if (places_.empty() || count < int{kFewestForScatter} / 2) return false;

@@ -36,7 +36,7 @@ void VehicleBlocks::beginRows(BodyRows& rows) const {
   for (Eigen::MatrixXd& covariance : rows.covariance) covariance.resize(2 * n, 2 * n);
 }
 
-// What others see of a strut's damper is what its friction acts as, too.
+// The damping that other struts see of this one includes what its friction acts as.
 void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
   const std::size_t n = size();
   using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;

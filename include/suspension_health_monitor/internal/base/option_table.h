@@ -9,8 +9,8 @@
 
 namespace suspension_health_monitor {
 
-/// A list that is none of texts, or a group with nothing in it. No option takes it: it is refused as any other wrong
-/// value is.
+/// A list of something other than texts, or an empty group. No option takes it: it is refused like any other wrong
+/// value.
 struct UnusableList {
   std::string text;  ///< as it was written
   bool operator==(const UnusableList& other) const { return text == other.text; }

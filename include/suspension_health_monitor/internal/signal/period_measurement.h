@@ -11,10 +11,9 @@
 
 namespace suspension_health_monitor {
 
-/// The sampling time of several streams, measured from their stamps, of the slowest one: the mean of all spacings
-/// within half and one and a half times their median. The median passes over gaps and clocks that jump, as long as they
-/// are the minority; the mean takes the jitter of n stamps down to 1/n of it. Streams that are not required have no
-/// say.
+/// The sampling time of several streams, measured from their stamps: that of the slowest stream that is required. Of
+/// each stream it is the mean of all spacings between half and one and a half times their median. The median passes
+/// over gaps and clocks that jump, as long as they are the minority; the mean of n spacings has 1/n of their jitter.
 class PeriodMeasurement {
  public:
   static constexpr std::size_t kFewestOfRecording = 10;  ///< spacings that tell the period of something recorded

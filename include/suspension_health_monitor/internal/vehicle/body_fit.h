@@ -63,8 +63,8 @@ struct BodyFitResult {
 
   Eigen::MatrixXd rate, travel;  ///< the rows that the body has, tops by struts [1/s], [1/s^2]
 
-  /// @return what is known of these rows by both: the body's, with an error of phi in each coefficient, and their own,
-  /// by their variances.
+  /// @return the rows by all that is known: the mean of each coefficient and that of the body, whose error is phi,
+  /// weighted by their variances.
   BodyRows combined(const BodyRows& rows) const;
 
   BodyInertia inertia{};  ///< infinite stddev: not seen

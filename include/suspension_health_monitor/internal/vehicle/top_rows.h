@@ -28,8 +28,8 @@ struct BodyRows : TopRows {
 
   Eigen::Index size() const { return rate.rows(); }
 
-  /// @return rho_ij: what strut j does to its own top it does to top i with this ratio; b1_ij / b1_jj and b0_ij / b0_jj
-  /// by their variances. a_ij / a_jj of a rigid body, but for anti-roll bars.
+  /// @return rho_ij, the share of what strut j does to its own top that it does to top i: the mean of b1_ij / b1_jj and
+  /// b0_ij / b0_jj, weighted by their variances. Of a rigid body without anti-roll bars it is a_ij / a_jj.
   Measured ratio(Eigen::Index i, Eigen::Index j) const;
   /// @return true if every ratio is known well enough to take the other struts out.
   bool areKnown() const;
