@@ -143,42 +143,35 @@ std::vector<Left> leftOf(const StrutDrives& drive, double period, const std::vec
   return all;
 }
 
-/// E[a(k) b(k + lag)].
-class Covariances {
- public:
-  Covariances(const std::vector<Left>& noise, Eigen::Index most) : most_(most), num_(noise.size()) {
-    const Eigen::Index size = noise.front().values.size();
-    for (const Left& a : noise)
-      for (const Left& b : noise)
-        for (Eigen::Index lag = -most; lag <= most; ++lag)
-          values_.push_back(a.values.segment(most, size - 2 * most).dot(b.values.segment(most + lag, size - 2 * most)) /
-                            static_cast<double>(size));
-  }
+/// E[a(k) b(k + lag)] by a, b and lag, from -most to most.
+using Covariances = std::vector<std::vector<Eigen::VectorXd>>;
 
-  double operator()(std::size_t a, std::size_t b, Eigen::Index lag) const {
-    return values_[(a * num_ + b) * (2 * most_ + 1) + (lag + most_)];
-  }
-
- private:
-  Eigen::Index most_;
-  std::size_t num_;
-  std::vector<double> values_;
-};
+Covariances covariancesOf(const std::vector<Left>& noise, Eigen::Index most) {
+  const Eigen::Index size = noise.front().values.size(), inner = size - 2 * most;
+  Covariances covariances(noise.size(), std::vector<Eigen::VectorXd>(noise.size(), Eigen::VectorXd(2 * most + 1)));
+  for (std::size_t a = 0; a < noise.size(); ++a)
+    for (std::size_t b = 0; b < noise.size(); ++b)
+      for (Eigen::Index lag = 0; lag <= 2 * most; ++lag)
+        covariances[a][b][lag] =
+            noise[a].values.segment(most, inner).dot(noise[b].values.segment(lag, inner)) / static_cast<double>(size);
+  return covariances;
+}
 
 /// h of one strut: a column for each of the others, rows l = -reach .. reach.
 using Weights = Eigen::MatrixXd;
 
-Weights weightsOf(std::size_t strut, std::size_t num_struts, const Covariances& covariance, Eigen::Index reach) {
+Weights weightsOf(std::size_t strut, const Covariances& covariances, Eigen::Index reach) {
   std::vector<std::size_t> others;
-  for (std::size_t j = 0; j < num_struts; ++j)
+  for (std::size_t j = 0; j < covariances.size(); ++j)
     if (j != strut) others.push_back(j);
-  const Eigen::Index lags = 2 * reach + 1, unknowns = lags * others.size();
+  const Eigen::Index middle = 2 * reach, lags = 2 * reach + 1, unknowns = lags * others.size();  // middle: lag 0
   Eigen::MatrixXd moments(unknowns, unknowns);
   Eigen::VectorXd target(unknowns);
   for (Eigen::Index a = 0; a < unknowns; ++a) {
     const std::size_t of_a = others[a / lags];
-    target[a] = covariance(of_a, strut, reach - a % lags);
-    for (Eigen::Index b = 0; b < unknowns; ++b) moments(a, b) = covariance(of_a, others[b / lags], b % lags - a % lags);
+    target[a] = covariances[of_a][strut][middle + reach - a % lags];
+    for (Eigen::Index b = 0; b < unknowns; ++b)
+      moments(a, b) = covariances[of_a][others[b / lags]][middle + b % lags - a % lags];
   }
   moments.diagonal().array() += kVehicleTuning.model_variance;
   const Eigen::VectorXd solution = solveSymmetric(moments, target);
@@ -219,9 +212,9 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   const auto runs_away = [](const std::vector<Left>& left) { return left.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
   const Eigen::Index reach = std::lround(kVehicleTuning.noise_reach / period);
-  const Covariances covariance(of_noise, 2 * reach);
+  const Covariances covariances = covariancesOf(of_noise, 2 * reach);
   for (std::size_t i = 0; i < noise.size(); ++i) {
-    const Weights weights = weightsOf(i, noise.size(), covariance, reach);
+    const Weights weights = weightsOf(i, covariances, reach);
     for (std::size_t d = 0; d < drives.size(); ++d) drives[d][i] = without(weights, i, drives[d][i], of_drives[d]);
     noise[i] = without(weights, i, noise[i], of_noise);
   }
