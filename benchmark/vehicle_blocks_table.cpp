@@ -155,12 +155,11 @@ void print(const Case& test, const Run& run) {
         continue;
       }
       ++count;
-      Eigen::Matrix2d covariance = Eigen::Vector2d(each.stddev[0], each.stddev[1]).cwiseAbs2().asDiagonal();
-      if (run.body)
-        covariance = run.body->absoluteCovariance(i, {each.value[0], each.value[1]}, covariance, each.friction_damping);
+      Eigen::Array2d variances = Eigen::Array2d(each.stddev[0], each.stddev[1]).square();
+      if (run.body) variances += run.body->modelVariances(i, {each.value[0], each.value[1]}, each.friction_damping);
       for (std::size_t p : {0, 1}) {
         const double off = each.value[p] - test.truth[i][p];
-        const double stddev = std::sqrt(covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p)));
+        const double stddev = std::sqrt(variances[static_cast<Eigen::Index>(p)]);
         inside[p] += std::abs(off) < kInterval * each.stddev[p] ? 1 : 0;
         inside_absolute[p] += std::abs(off) < kInterval * stddev ? 1 : 0;
         absolute[p].push_back(100.0 * stddev / each.value[p]);

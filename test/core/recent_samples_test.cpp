@@ -5,6 +5,8 @@
 namespace suspension_health_monitor {
 namespace {
 
+using RecentSamples = Recent<CornerSample>;
+
 constexpr Stamp kPeriod = std::chrono::milliseconds(10);
 
 void push(RecentSamples& recent, int first, int last) {

@@ -14,7 +14,7 @@
 namespace suspension_health_monitor {
 namespace {
 
-constexpr std::size_t kLongestName = 200;  // with its groups
+constexpr std::size_t kLongestName = 200, kLongestNameOfOne = 64;  // [characters]: with its groups, of one
 
 /// Names that were options once, separated by spaces, and what serves instead.
 constexpr std::pair<std::string_view, std::string_view> kFormerOptions[] = {
@@ -177,12 +177,6 @@ std::vector<OptionDescription> inGroups(const std::vector<std::string>& groups, 
   return first;
 }
 
-namespace {
-
-constexpr std::size_t kLongestNameOfOne = 64;  // [characters]
-
-}  // namespace
-
 OptionMap takePrefixed(OptionMap& values, const std::string& prefix) {
   const std::string start = prefix + '/';
   OptionMap taken;
@@ -222,15 +216,14 @@ std::vector<double> takeNumbers(const std::string& group, const OptionMap& setti
 
 double toNumber(const std::string& name, const OptionValue& value, double min, double max) {
   double number = min;
-  const option_table::Bound option{{}, name, "SI", "a number", &number, min, max, {}};
+  const option_table::Bound option{{{}, name, "SI", "a number", min, max, {}}, &number};
   option_table::assign(option, value);
   option_table::check(option);
   return number;
 }
 
 void requireName(const std::string& where, const std::string& name) {
-  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
-  if (name.find_first_of(letters) != 0 || name.find_first_not_of(letters + "0123456789_") != std::string::npos)
+  if (name.find_first_of(kLetters) != 0 || name.find_first_not_of(kNameCharacters) != std::string::npos)
     throw std::invalid_argument(where + ": the name must be letters, digits and _, a letter first");
   if (name.size() > kLongestNameOfOne)
     throw std::invalid_argument(where + ": the name must be at most " + std::to_string(kLongestNameOfOne) +

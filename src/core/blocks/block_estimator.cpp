@@ -1,17 +1,17 @@
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-// At rest now and then a strut is found in the noise: by chance p parameters explain p of the numbers of half
-// overlapped blocks. And a body that something else moves at one frequency, as the wind rocks a parked car, drags its
-// wheel along like some strut with hardly any damper: by more than the resonance of a strut that is damped by 0.115
-// makes of a wheel's motion, or with half as much unexplained as the wheel moves at all.
+// A fit may find a strut where there is none. In noise, as of a vehicle at rest, p parameters explain p of the numbers
+// of half overlapped blocks by chance. And where something else moves the body at one frequency, as the wind rocks a
+// parked car, the body drags its wheel along as if by a strut with hardly any damper: then the body moves more than the
+// resonance of a strut with a damping ratio of 0.115 would make it, or what is not explained of its motion has more than
+// half of the power of the wheel's motion.
 bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
   const double values = band.size() * (estimate.blocks + 1.0);
   const double least_explained = 2.0 * static_cast<double>(estimate.theta.size()) / values;
@@ -19,8 +19,6 @@ bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
          estimate.amplified < kBlockTuning.most_amplified &&
          (1.0 - estimate.explained) * estimate.amplified < kMajority;
 }
-
-bool isSlow(int i) { return i == kBlockDelay || i == kBlockGain || i >= kNumBlockParameters; }
 
 }  // namespace
 
@@ -53,11 +51,6 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
   sorted_.reserve(kBlockWindows.back());
 }
 
-// Of a strut that bounces far faster than a car's no more than what a car's may be off by, in its own time.
-double BlockEstimator::delayStddev() const {
-  return std::min(1.0, equations_.band().length / BlockOptions().length) * options_.delay_stddev;
-}
-
 StrutBlock& BlockEstimator::next() {
   if (count_ == kBlockWindows.back()) retire(block(kBlockWindows.back() - 1));
   head_ = (head_ + 1) % kBlockWindows.back();
@@ -72,9 +65,9 @@ void BlockEstimator::begin(const BlockVector& theta, const BlockPrior& slow) {
   has_theta_ = true;
 }
 
-std::vector<const StrutBlock*>& BlockEstimator::newest(int count) {
+const std::vector<const StrutBlock*>& BlockEstimator::newest(int count, int from) {
   pointers_.clear();
-  for (int age = count - 1; age >= 0; --age) pointers_.push_back(&block(age));
+  for (int age = from + count - 1; age >= from; --age) pointers_.push_back(&block(age));
   return pointers_;
 }
 
@@ -83,12 +76,10 @@ bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& re
   return result.isUsable();
 }
 
-std::optional<WindowEstimate> BlockEstimator::ofBlocks(int newest, int count) {
-  if (!has_theta_ || count < kBlockWindows.front() || newest + count > count_) return std::nullopt;
-  pointers_.clear();
-  for (int age = newest + count - 1; age >= newest; --age) pointers_.push_back(&block(age));
+std::optional<WindowEstimate> BlockEstimator::ofBlocks(int from, int count) {
+  if (!has_theta_ || count < kBlockWindows.front() || from + count > count_) return std::nullopt;
   WindowEstimate result;
-  window_fit_.fit(pointers_, first_, theta_, weights_.usual, scatter_, result);
+  window_fit_.fit(newest(count, from), first_, theta_, weights_.usual, scatter_, result);
   if (!result.isUsable()) return std::nullopt;
   return result;
 }
@@ -170,59 +161,6 @@ bool BlockEstimator::startBy(int window) {
   return trial_.worst() < kBlockTuning.lost && explainsSomething(trial_, equations_.band());
 }
 
-// A gain, and of a vehicle a delay, is let in only if it is more than links and laws with memory make, see
-// kBlockTuning.least_phase.
-void BlockEstimator::lookAtSensors() {
-  const bool is_alone = equations_.columns().neighbours == 0;
-  const double omega = equations_.band().omega(equations_.band().last);
-  if (!is_alone) first_.stddev[kBlockDelay] = options_.delay_stddev;
-  first_.stddev[kBlockGain] = options_.gain_stddev;
-  const bool is_known = fit(count_, first_, trial_);
-  const double gain = trial_.theta[kBlockGain];
-  if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
-    first_.stddev[kBlockDelay] = kBlockTuning.held;
-  if (!is_known || trial_.explained < kBlockTuning.nearly_all ||
-      std::abs(gain) < kLeastDifference + kCertain * std::sqrt(trial_.covariance(kBlockGain, kBlockGain)))
-    first_.stddev[kBlockGain] = kBlockTuning.held;
-}
-
-void BlockEstimator::forgetSlow() {
-  slow_ = first_;
-  of_all_.reset();
-}
-
-void BlockEstimator::scaleSlow(int parameter, double factor, double stddev) {
-  factor_[parameter] = factor;
-  factor_stddev_[parameter] = stddev;
-}
-
-void BlockEstimator::scaleSlow() {
-  scaled_.mean = slow_.mean.cwiseProduct(factor_);
-  scaled_.stddev =
-      (slow_.stddev.cwiseProduct(factor_).array().square() + slow_.mean.cwiseProduct(factor_stddev_).array().square())
-          .sqrt();
-}
-
-void BlockEstimator::learnSlow() {
-  lookAtSensors();
-  if (!fit(count_, first_, trial_)) return;
-  slow_ = first_;
-  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
-    if (!isSlow(i)) continue;
-    slow_.mean[i] = trial_.theta[i];
-    slow_.stddev[i] = std::min(kBlockTuning.slow_factor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
-  }
-  const auto& power = window_fit_.power();
-  weights_ = window_fit_.weights();
-  weights_.usual.resize(power.rows());
-  for (Eigen::Index i = 0; i < power.rows(); ++i) {
-    sorted_.assign(power.row(i).begin(), power.row(i).end());
-    weights_.usual[i] = std::max(medianInPlace(sorted_), std::numeric_limits<double>::min());
-  }
-  scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
-  of_all_ = trial_;
-}
-
 // Blocks that were never linearised, since no strut was known then, tell nothing.
 void BlockEstimator::retire(const StrutBlock& block) {
   if (weights_.usual.size() > 0 && block.at[kBlockStiffness] > 0.0) drive_.add(block, weights_, block.at);
@@ -230,8 +168,7 @@ void BlockEstimator::retire(const StrutBlock& block) {
 
 void BlockEstimator::retireAll() {
   if (count_ > 0 && has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_)) {
-    weights_.noise = window_fit_.weights().noise;
-    weights_.share_scale = window_fit_.weights().share_scale;
+    weights_ = window_fit_.weights();
     weights_.usual = weights_.noise;
   }
   for (int age = count_ - 1; age >= 0; --age) retire(block(age));
@@ -265,19 +202,6 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
     if (((theta_ - before).array().abs() <= kStill * theta_.array().abs()).head<2>().all()) break;
   }
   return result;
-}
-
-bool BlockEstimator::contradictsSlow() {
-  if (weights_.usual.size() == 0) return false;
-  BlockPrior open = scaled_;
-  open.stddev = first_.stddev;
-  if (!fit(kBlockWindows.front(), open, trial_)) return false;
-  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
-    if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
-    const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
-    if (apart > kProven * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i])) return true;
-  }
-  return false;
 }
 
 // A window ends where shorter ones say that the strut was another one, and the newest blocks leave more of it than

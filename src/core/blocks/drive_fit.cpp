@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
@@ -12,13 +11,6 @@ double BlockWeights::of(const Eigen::Ref<const Eigen::ArrayXd>& power) const {
   return times > kBlockTuning.full ? kBlockTuning.full * kBlockTuning.full / (times * times) : 1.0;
 }
 
-double BlockWeights::of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const {
-  BandVector power(bands.count());
-  for (int i = 0; i < bands.count(); ++i)
-    power[i] = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands.size(i);
-  return of(power.array());
-}
-
 double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
   const Eigen::Index p = theta.size();
   BlockVector linear = theta;
@@ -27,6 +19,12 @@ double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta) {
   for (Eigen::Index j = 0; j < p; ++j)
     power += linear[j] * (linear[j] * moments(j, j) + 2.0 * moments.col(j).head(j).dot(linear.head(j)));
   return std::max(power, 0.0);
+}
+
+BandVector residualPowers(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) {
+  BandVector powers(bands.count());
+  for (int i = 0; i < bands.count(); ++i) powers[i] = residualPower(block.bands[i].moments, theta) / bands.size(i);
+  return powers;
 }
 
 BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale) {
@@ -73,15 +71,15 @@ DriveFit::DriveFit(const BlockBand& band, const BlockColumns& columns)
   information_.setZero(p, p);
   scatter_ = spread_ = information_;
   right_.setZero(p);
-  previous_.assign(static_cast<std::size_t>(bands_.count()), right_);
+  previous_.assign(bands_.count(), right_);
 }
 
 void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const BlockVector& theta) {
   ++blocks_;
-  const double weight = weights.of(block, bands_, theta);
+  const double weight = weights.of(residualPowers(block, bands_, theta).array());
   weight_ += weight;
   for (int i = 0; i < bands_.count(); ++i) {
-    const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+    const StrutBlock::Band& band = block.bands[i];
     const double scale = weights.share_scale[i], of_band = weight / weights.noise[i];
     const BlockMatrix information = of_band * withShare(band.information, scale);
     const BlockVector score = of_band * scoreOf(band, theta, scale);
@@ -89,7 +87,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     spread_ += of_band * withShare(band.instruments, scale);
     right_.noalias() += information * theta;
     right_ += score;
-    BlockVector& previous = previous_[static_cast<std::size_t>(i)];
+    BlockVector& previous = previous_[i];
     const BlockMatrix with_previous = 0.5 * score * previous.transpose();
     scatter_ += score * score.transpose() + with_previous + with_previous.transpose();
     previous = score;

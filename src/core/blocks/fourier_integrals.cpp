@@ -39,13 +39,13 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
       half_length_(band.length / 2.0),
       longest_spacing_(kBlockTuning.longest_spacing * band.length),
       channels_(channels),
-      interpolated_(static_cast<std::size_t>(kBlockTuning.most_lost)),
+      interpolated_(kBlockTuning.most_lost),
       first_(channels) {
-  real_.setZero(band.last + 1, static_cast<Eigen::Index>(channels));
+  real_.setZero(band.last + 1, channels);
   imaginary_ = real_;
   for (Reading* each : {&before_, &last_, &held_}) each->values.resize(channels);
   for (Reading& each : interpolated_) each.values.resize(channels);
-  for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), static_cast<Eigen::Index>(channels));
+  for (Half& each : halves_) each.integrals.setZero(band.spectrumSize(), channels);
 }
 
 void FourierIntegrals::push(double time, const double* values, Phases& phases) {
@@ -85,7 +85,7 @@ void FourierIntegrals::bridge(double next_time, const double* next, Phases& phas
   const bool is_even = 2.0 * std::min(at[1] - at[0], at[3] - at[2]) > spacing;
   const Reading* left = &last_;
   for (int k = 1; is_even && k <= lost_; ++k) {
-    Reading& between = interpolated_[static_cast<std::size_t>(k - 1)];
+    Reading& between = interpolated_[k - 1];
     between.time = at[1] + k * spacing;
     const std::array<double, 4> weights = lagrange(at, between.time);
     for (std::size_t j = 0; j < channels_; ++j)
@@ -147,14 +147,14 @@ void FourierIntegrals::add(const Reading& reading, double weight, Phases& phases
   phases.turnTo(reading.time - static_cast<double>(open_) * half_length_);
   for (std::size_t j = 0; j < channels_; ++j) {
     const double x = weight * (reading.values[j] - first_[j]);
-    real_.col(static_cast<Eigen::Index>(j)) += x * phases.cosines();
-    imaginary_.col(static_cast<Eigen::Index>(j)) += x * phases.sines();
+    real_.col(j) += x * phases.cosines();
+    imaginary_.col(j) += x * phases.sines();
   }
 }
 
 void FourierIntegrals::finishUntil(long index) {
   if (index == open_) return;
-  Half& half = slot(open_);
+  Half& half = halves_[open_ % kHalves];
   half.index = open_;
   half.is_complete = is_whole_;
   const Eigen::Index from = band_.first - 2, size = band_.spectrumSize();  // element i is bin i + 1
@@ -164,7 +164,7 @@ void FourierIntegrals::finishUntil(long index) {
 }
 
 const Eigen::ArrayXXcd* FourierIntegrals::half(long index) const {
-  const Half& half = halves_[static_cast<std::size_t>(index % kHalves)];
+  const Half& half = halves_[index % kHalves];
   return half.index == index && half.is_complete ? &half.integrals : nullptr;
 }
 

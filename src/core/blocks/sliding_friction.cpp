@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/blocks/sliding_friction.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"

@@ -13,9 +13,37 @@ Eigen::Map<const Eigen::MatrixXd> asReal(const Eigen::MatrixXcd& columns) {
 
 }  // namespace
 
+StrutBlock::Band::Band(Eigen::Index p)
+    : information(p, p), instruments(p, p), score(p), share(p), moments(p + 1, p + 1) {
+  setZero();
+}
+
+void StrutBlock::Band::setZero() {
+  information.setZero();
+  instruments.setZero();
+  score.setZero();
+  share.setZero();
+  moments.setZero();
+  wheel_power = body_power = moving_power = rate_power = travel_power = 0.0;
+}
+
+void StrutBlock::Band::add(double weight, const Band& other) {
+  information += weight * other.information;
+  instruments += weight * other.instruments;
+  score += weight * other.score;
+  share += weight * other.share;
+  moments += weight * other.moments;
+  wheel_power += weight * other.wheel_power;
+  body_power += weight * other.body_power;
+  moving_power += weight * other.moving_power;
+  rate_power += weight * other.rate_power;
+  travel_power += weight * other.travel_power;
+}
+
 StrutEquations::StrutEquations(const BlockBand& band, const BlockColumns& columns)
     : band_(band), noise_bands_(band), columns_(columns), undelayed_(band), delayed_(band), s_(undelayed_.s()) {
-  for (Eigen::ArrayXcd* each : {&a_, &g_, &gain_, &x0_, &x1_, &x2_, &wheel_, &e_over_g_}) each->resize(s_.size());
+  for (Eigen::ArrayXcd* each : {&a_, &g_, &gain_, &wheel_, &e_over_g_}) each->resize(s_.size());
+  x_.resize(s_.size(), 3);
   rho_.resize(s_.size());
   rho_slope_.resize(s_.size());
   instruments_.resize(s_.size(), columns.numParameters());
@@ -23,7 +51,6 @@ StrutEquations::StrutEquations(const BlockBand& band, const BlockColumns& column
 }
 
 StrutBlock StrutEquations::makeBlock() const {
-  const Eigen::Index p = columns_.numParameters();
   StrutBlock block;
   block.wheel.setZero(band_.spectrumSize());
   block.forces.setZero(band_.spectrumSize(), columns_.forces);
@@ -31,15 +58,8 @@ StrutBlock StrutEquations::makeBlock() const {
   block.neighbours.setZero(s_.size(), columns_.neighbours);
   block.predicted_neighbours = block.neighbours;
   if (columns_.neighbours > 0) block.predicted_travel.setZero(s_.size());
-  block.at.setZero(p);
-  block.bands.resize(static_cast<std::size_t>(noise_bands_.count()));
-  for (StrutBlock::Band& each : block.bands) {
-    each.information.setZero(p, p);
-    each.instruments.setZero(p, p);
-    each.score.setZero(p);
-    each.share.setZero(p);
-    each.moments.setZero(p + 1, p + 1);
-  }
+  block.at.setZero(columns_.numParameters());
+  block.bands.assign(noise_bands_.count(), StrutBlock::Band(columns_.numParameters()));
   return block;
 }
 
@@ -47,23 +67,20 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
   const double b1 = theta[kBlockDamping], b0 = theta[kBlockStiffness], r = theta[kBlockWheelShare];
   const Eigen::Index p = columns_.numParameters();
   delayed_.setDelay(theta[kBlockDelay]);
-  delayed_.apply(0, block.wheel, x0_);
-  delayed_.apply(1, block.wheel, x1_);
-  delayed_.apply(2, block.wheel, x2_);
+  for (int i = 0; i < 3; ++i) delayed_.apply(i, block.wheel, x_.col(i));
   const double own_gain = 1.0 + theta[kBlockGain];
-  x0_ *= own_gain;
-  x1_ *= own_gain;
-  x2_ *= own_gain;
+  x_ *= own_gain;
+  const auto x0 = x_.col(0), x1 = x_.col(1), x2 = x_.col(2);
   const auto y0 = block.body.col(0), y1 = block.body.col(1), y2 = block.body.col(2);
   g_ = b1 * s_ + b0;
   a_ = s_ * s_ + g_;
   gain_ = g_ / a_;
 
   auto residual = regressors_.col(p).array();
-  regressors_.col(kBlockDamping).array() = (x1_ - y1) / a_;
-  regressors_.col(kBlockStiffness).array() = (x0_ - y0) / a_;
-  regressors_.col(kBlockDelay).array() = (b1 * x2_ + b0 * x1_) / a_;
-  regressors_.col(kBlockGain).array() = (b1 * x1_ + b0 * x0_) / (own_gain * a_);
+  regressors_.col(kBlockDamping).array() = (x1 - y1) / a_;
+  regressors_.col(kBlockStiffness).array() = (x0 - y0) / a_;
+  regressors_.col(kBlockDelay).array() = (b1 * x2 + b0 * x1) / a_;
+  regressors_.col(kBlockGain).array() = (b1 * x1 + b0 * x0) / (own_gain * a_);
   residual = y2 / a_ - b1 * regressors_.col(kBlockDamping).array() - b0 * regressors_.col(kBlockStiffness).array();
   for (int m = 0; m < columns_.forces; ++m) {
     auto force = regressors_.col(columns_.firstForce() + m).array();
@@ -83,7 +100,7 @@ void StrutEquations::linearise(const BlockVector& theta, StrutBlock& block) {
   rho_ = r * g2 / (r * g2 + (1.0 - r) * a2);
   rho_slope_ = g2 * a2 / (r * g2 + (1.0 - r) * a2).square();
   e_over_g_ = rho_ * residual / gain_;
-  wheel_ = x0_ + e_over_g_;
+  wheel_ = x0 + e_over_g_;
   auto travel = instruments_.col(kBlockStiffness).array();  // H_0 of w'' - z'' by the model, over A
   if (columns_.neighbours > 0)
     travel = (block.predicted_travel + s_ * s_ / a_ * e_over_g_) / a_;
@@ -106,7 +123,7 @@ void StrutEquations::sumBands(StrutBlock& block) const {
   const Eigen::Index p = columns_.numParameters();
   for (int i = 0; i < noise_bands_.count(); ++i) {
     const int first = noise_bands_.first(i), size = noise_bands_.size(i);
-    StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+    StrutBlock::Band& band = block.bands[i];
     const auto z_band = z.middleRows(2 * first, 2 * size), r_band = r.middleRows(2 * first, 2 * size);
     band.information.noalias() = z_band.transpose().lazyProduct(r_band.leftCols(p));
     band.instruments.noalias() = z_band.transpose().lazyProduct(z_band);
@@ -115,10 +132,10 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     band.moments.noalias() = r_band.transpose().lazyProduct(r_band);
     band.wheel_power = wheel_.segment(first, size).abs2().sum();
     band.body_power = block.body.col(0).segment(first, size).abs2().sum();
-    band.moving_power = x0_.segment(first, size).abs2().sum();
+    band.moving_power = x_.col(0).segment(first, size).abs2().sum();
     const auto fourth = s_.segment(first, size).abs2().square();
-    band.rate_power = ((x1_ - block.body.col(1)).segment(first, size).abs2() / fourth).sum();
-    band.travel_power = ((x0_ - block.body.col(0)).segment(first, size).abs2() / fourth).sum();
+    band.rate_power = ((x_ - block.body).col(1).segment(first, size).abs2() / fourth).sum();
+    band.travel_power = ((x_ - block.body).col(0).segment(first, size).abs2() / fourth).sum();
   }
 }
 
@@ -127,11 +144,10 @@ BlockVector StrutEquations::start(const std::vector<const StrutBlock*>& blocks) 
   BlockMatrix normal = BlockMatrix::Zero(p, p);
   BlockVector right = BlockVector::Zero(p);
   for (const StrutBlock* block : blocks) {
-    undelayed_.apply(0, block->wheel, x0_);
-    undelayed_.apply(1, block->wheel, x1_);
+    for (int i = 0; i < 2; ++i) undelayed_.apply(i, block->wheel, x_.col(i));
     // Over s^2: displacements, which a bounce has most of.
-    regressors_.col(0).array() = (x1_ - block->body.col(1)) / (s_ * s_);
-    regressors_.col(1).array() = (x0_ - block->body.col(0)) / (s_ * s_);
+    regressors_.col(0).array() = (x_.col(1) - block->body.col(1)) / (s_ * s_);
+    regressors_.col(1).array() = (x_.col(0) - block->body.col(0)) / (s_ * s_);
     for (int m = 0; m < columns_.neighbours; ++m) regressors_.col(2 + m).array() = block->neighbours.col(m) / (s_ * s_);
     regressors_.col(p).array() = block->body.col(2) / (s_ * s_);
     const auto rows = asReal(regressors_);

@@ -20,26 +20,19 @@ bool WindowEstimate::isUsable() const {
 
 WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int most_blocks)
     : length_(band.length), bands_(band), columns_(columns) {
-  const Eigen::Index p = columns.numParameters();
+  const int p = columns.numParameters();
   power_.setZero(bands_.count(), most_blocks);
   weight_.setOnes(most_blocks);
   present_ = weight_;
-  versions_.assign(static_cast<std::size_t>(most_blocks), 0);
-  sums_.resize(static_cast<std::size_t>(bands_.count()));
-  for (Sum& each : sums_) {
-    each.information.resize(p, p);
-    each.instruments.resize(p, p);
-    each.moments.resize(p + 1, p + 1);
-    each.score.resize(p);
-    each.share.resize(p);
-  }
+  versions_.assign(most_blocks, 0);
+  sums_.assign(bands_.count(), StrutBlock::Band(p));
   weights_.noise.setOnes(bands_.count());
   weights_.share_scale = weights_.noise;
   normal_.setZero(p, p);
   spread_ = normal_;
   right_.setZero(p);
   previous_.setZero(2, bands_.count());
-  distances_.reserve(static_cast<std::size_t>(most_blocks));
+  distances_.reserve(most_blocks);
   own_.reserve(distances_.capacity());
   own_covariance_.reserve(distances_.capacity());
 }
@@ -76,8 +69,8 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
 
 // Sums over the newest blocks: those of a smaller window before this one are there already.
 void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
-  const auto newest = [&](int i) -> const StrutBlock& { return *blocks[static_cast<std::size_t>(blocks_ - 1 - i)]; };
-  const auto version = [&](int i) -> long& { return versions_[static_cast<std::size_t>(i)]; };
+  const auto newest = [&](int i) -> const StrutBlock& { return *blocks[blocks_ - 1 - i]; };
+  const auto version = [&](int i) -> long& { return versions_[i]; };
   bool is_known = gathered_ <= blocks_;
   for (int i = 0; is_known && i < gathered_; ++i) is_known = version(i) == newest(i).version;
   if (!is_known) {
@@ -86,7 +79,7 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   }
   if (gathered_ == 0) {
     sum_of_weights_ = 0.0;
-    for (Sum& each : sums_) each.setZero();
+    for (StrutBlock::Band& each : sums_) each.setZero();
   }
   for (; gathered_ < blocks_; ++gathered_) {
     version(gathered_) = newest(gathered_).version;
@@ -95,31 +88,11 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   }
 }
 
-void WindowFit::Sum::setZero() {
-  information.setZero();
-  instruments.setZero();
-  moments.setZero();
-  score.setZero();
-  share.setZero();
-  wheel_power = 0.0;
-}
-
-void WindowFit::Sum::add(double weight, const StrutBlock::Band& band) {
-  information += weight * band.information;
-  instruments += weight * band.instruments;
-  moments += weight * band.moments;
-  score += weight * band.score;
-  share += weight * band.share;
-  wheel_power += weight * band.wheel_power;
-}
-
 // How much each block counts.
 // @return true if that has changed.
 bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
   for (int b = 0; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
-    for (int i = 0; i < bands_.count(); ++i)
-      power_(i, b) = residualPower(block.bands[static_cast<std::size_t>(i)].moments, theta) / bands_.size(i);
+    power_.col(b) = residualPowers(*blocks[b], bands_, theta).array();
     present_[blocks_ - 1 - b] = weights_.of(power_.col(b));
   }
   auto present = present_.head(blocks_), weight = weight_.head(blocks_);
@@ -135,7 +108,7 @@ void WindowFit::measureNoise(const BlockVector& theta) {
   // Without any noise the weights would be infinite: rounding errors of the signal are some.
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
-    const Sum& sum = sums_[static_cast<std::size_t>(i)];
+    const StrutBlock::Band& sum = sums_[i];
     const double wheel = sum.wheel_power / bands_.size(i), power = residualPower(sum.moments, theta) / bands_.size(i);
     // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
     // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
@@ -152,7 +125,7 @@ void WindowFit::sum(const BlockPrior& prior) {
   normal_.diagonal() = prior.stddev.cwiseAbs2().cwiseInverse();
   right_ = normal_.diagonal().cwiseProduct(prior.mean);
   for (int i = 0; i < bands_.count(); ++i) {
-    const Sum& sum = sums_[static_cast<std::size_t>(i)];
+    const StrutBlock::Band& sum = sums_[i];
     const double noise = weights_.noise[i], scale = weights_.share_scale[i];
     BlockVector score = (sum.score + scale * sum.share) / noise;
     score[kBlockWheelShare] *= scale;
@@ -179,17 +152,18 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   double body = 0.0, unexplained = 0.0, wheel = 0.0, rate = 0.0, travel = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 4> of_quarter = Eigen::Matrix<double, 2, 4>::Zero();
-  for (const Sum& each : sums_) unexplained += residualPower(each.moments, result.theta);
+  for (const StrutBlock::Band& each : sums_) {
+    unexplained += residualPower(each.moments, result.theta);
+    body += each.body_power;
+    wheel += each.moving_power;
+    rate += each.rate_power;
+    travel += each.travel_power;
+  }
   for (int b = 0; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
+    const StrutBlock& block = *blocks[b];
     const double weight = weight_[blocks_ - 1 - b];
     for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
-      body += weight * band.body_power;
-      rate += weight * band.rate_power;
-      travel += weight * band.travel_power;
-      wheel += weight * band.moving_power;
-      const Eigen::Vector2d own = weight / weights_.noise[i] * band.information.diagonal().head<2>();
+      const Eigen::Vector2d own = weight / weights_.noise[i] * block.bands[i].information.diagonal().head<2>();
       of_quarter.col(4 * b / blocks_) += own;
       age += own * (blocks.back()->end - block.end);
     }
@@ -207,7 +181,7 @@ void WindowFit::widenByAlike(const BlockMatrix& inverse, WindowEstimate& result)
   BlockMatrix information = BlockMatrix::Zero(inverse.rows(), inverse.cols());
   double power = std::numeric_limits<double>::infinity();
   for (int i = 0; i < bands_.count(); ++i) {
-    const WheelNoise& noise = wheel_noise_[static_cast<std::size_t>(i)];
+    const WheelNoise& noise = wheel_noise_[i];
     information += noise.information / weights_.noise[i];
     power = std::min(power, weights_.noise[i] / (1.0 + noise.output));
   }
@@ -229,9 +203,9 @@ double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const 
       inverse.topRows<2>() * prior.stddev.cwiseAbs2().cwiseInverse().asDiagonal() * inverse.topRows<2>().transpose();
   previous_.setZero();
   for (int b = 0; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
+    const StrutBlock& block = *blocks[b];
     for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      const StrutBlock::Band& band = block.bands[i];
       const Eigen::Vector2d moved = weight_[blocks_ - 1 - b] / weights_.noise[i] * inverse.topRows<2>() *
                                     scoreOf(band, result.theta, weights_.share_scale[i]);
       const Eigen::Matrix2d with_previous = 0.5 * moved * previous_.col(i).transpose();
@@ -249,11 +223,11 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
   own_covariance_.clear();
   distances_.clear();
   for (int b = 0; b < blocks_; ++b) {
-    const StrutBlock& block = *blocks[static_cast<std::size_t>(b)];
+    const StrutBlock& block = *blocks[b];
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d score = Eigen::Vector2d::Zero();
     for (int i = 0; i < bands_.count(); ++i) {
-      const StrutBlock::Band& band = block.bands[static_cast<std::size_t>(i)];
+      const StrutBlock::Band& band = block.bands[i];
       const double weight = weight_[blocks_ - 1 - b] / weights_.noise[i];
       information += weight * band.information.topLeftCorner<2, 2>();
       score += weight * scoreOf(band, theta, weights_.share_scale[i]).head<2>();

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -14,12 +15,9 @@ void checkThresholds(const std::string& parameter, double warn, double error) {
     refuse("health/" + parameter + "_error", error, "", "at least health/" + parameter + "_warn = " + numberText(warn));
 }
 
-// A window of the fewest blocks of the usual length [s]; longer ones come at longer spacings.
-constexpr double kShortestWindow = 4.0;
-
-EarlyWarning earlyWarning(const HealthOptions& options) {
-  return {options.early_change, std::max(2.0, options.false_alarm_interval / kShortestWindow)};
-}
+// Mean time between two early warnings of a healthy strut, over a window of the fewest blocks of the usual length, as
+// longer windows come at longer spacings.
+constexpr double kWindowsBetweenFalseAlarms = 1e6 / 4.0;
 
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.
 double logSize(double change) { return std::abs(2.0 * change / (2.0 + change)); }
@@ -43,13 +41,13 @@ HealthLevel levelOf(const PartChange& change, HealthLevel before, const HealthOp
   const double size = std::abs(change.size);
   const auto reaches = [&](HealthLevel level, double threshold) {
     const bool holds = before >= level && before != HealthLevel::kStale;
-    if (change.significance < options.min_significance * (holds ? 0.5 : 1.0)) return false;
+    if (change.significance < kCertain * (holds ? 0.5 : 1.0)) return false;
     return size + 1e-9 >= threshold - (holds ? std::fmax(options.hysteresis, change.stddev) : 0.0);
   };
   if (reaches(HealthLevel::kError, change.error)) return HealthLevel::kError;
   if (reaches(HealthLevel::kWarn, change.warn)) return HealthLevel::kWarn;
   // A change as large as the error threshold would not be certain.
-  return options.min_significance * change.blind > change.error ? HealthLevel::kStale : HealthLevel::kOk;
+  return kCertain * change.blind > change.error ? HealthLevel::kStale : HealthLevel::kOk;
 }
 
 /// @return the change beyond what the others have, too.
@@ -73,7 +71,7 @@ void HealthOptions::validate() const {
 HealthAssessment::HealthAssessment(const HealthOptions& options)
     : options_(options),
       confirmation_(fromSeconds(options.confirm_time)),
-      damping_{{}, earlyWarning(options)},
+      damping_{{}, {kLeastChange, kWindowsBetweenFalseAlarms}},
       stiffness_(damping_) {
   options.validate();
   baseline_ = nominalOf(options);
@@ -92,7 +90,7 @@ void HealthAssessment::setBaseline(const Baseline& baseline) {
   since_early_ = known_load_ = 0.0;
   for (Parameter* parameter : {&damping_, &stiffness_}) {
     parameter->trend.restart();
-    parameter->early = earlyWarning(options_);
+    parameter->early = {kLeastChange, kWindowsBetweenFalseAlarms};
     parameter->level = HealthLevel::kOk;
   }
 }
@@ -120,9 +118,9 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
     now.level = HealthLevel::kWarn;
   // The same estimate twice is no confirmation of itself, unless it needs none.
   const bool is_judgement = estimate.tellsChanges() && sensor_.fault == SensorFault::kNone;
-  const bool is_decisive = std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
-                                    judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) >
-                           kDecisive * options_.min_significance;
+  const bool is_decisive =
+      std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
+               judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) > kDecisive * kCertain;
   if (judges || !is_judgement || is_decisive || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);
   report_stamp_ = stamp;
   if (estimate.tellsChanges() || level_ == HealthLevel::kStale) report_ = now;  // else the last judgement stands
@@ -137,9 +135,7 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   if (sensor_.fault == SensorFault::kNone) learn(stamp, estimate, seconds);
   ChangeFromBaseline changed = changeFrom(baseline_, estimate);
   const auto carryOn = [&](Parameter& parameter, std::optional<LogChange>& change) {
-    if (change)
-      change =
-          parameter.trend.carryOn(*change, estimate.age, toSeconds(stamp), estimate.window, options_.min_significance);
+    if (change) change = parameter.trend.carryOn(*change, estimate.age, toSeconds(stamp), estimate.window, kCertain);
   };
   carryOn(damping_, changed.change.damping);
   carryOn(stiffness_, changed.change.stiffness);
@@ -169,9 +165,9 @@ void HealthAssessment::noteLoad(const StrutChange& change) {
 // A part whose parameter has certainly changed, while a load may have done it.
 LoadDoubt HealthAssessment::doubtOfLoad(const StrutChange& change) const {
   if (!change.load_alone) return LoadDoubt::kNone;
-  const bool load_may = change.load_alone->distance < options_.min_significance;
+  const bool load_may = change.load_alone->distance < kCertain;
   const auto is_doubtful = [&](double part, double stddev, double warn) {
-    return load_may && std::abs(part) >= warn && logSize(part) >= options_.min_significance * stddev;
+    return load_may && std::abs(part) >= warn && logSize(part) >= kCertain * stddev;
   };
   if (is_doubtful(*change.damping, change.damping_stddev, options_.damping_warn)) return LoadDoubt::kLoadOrDamper;
   if (is_doubtful(*change.stiffness, change.stiffness_stddev, options_.stiffness_warn)) return LoadDoubt::kLoadOrSpring;
@@ -186,14 +182,12 @@ void HealthAssessment::judge(const StrutChange& change) {
   now.payload_change = change.payload;
   now.load_doubt = doubtOfLoad(change);
   const auto part = [&](double size, double stddev, const LogChange& measured, double warn, double error) {
-    const double significance = logSize(size) / stddev;
-    if (!change.load_alone) return PartChange{size, stddev, significance, measured.stddev, warn, error};
-    return PartChange{size,
-                      stddev,
-                      std::fmin(significance, change.load_alone->distance),
-                      std::fmax(measured.stddev, change.apartStddev()),
-                      warn,
-                      error};  // NaN: not known
+    PartChange its{size, stddev, logSize(size) / stddev, measured.stddev, warn, error};
+    if (change.load_alone) {  // NaN: not known
+      its.significance = std::fmin(its.significance, change.load_alone->distance);
+      its.blind = std::fmax(its.blind, change.apartStddev());
+    }
+    return its;
   };
   if (change.damping) {
     const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured.damping,

@@ -161,7 +161,7 @@ std::optional<CornerPlaces> cornersAmong(const std::vector<std::string>& struts)
   for (std::size_t i = 0; i < kNumCorners; ++i) {
     const auto corner = std::find(struts.begin(), struts.end(), kCornerNames[i]);
     if (corner == struts.end()) return std::nullopt;
-    places[i] = static_cast<std::size_t>(corner - struts.begin());
+    places[i] = corner - struts.begin();
   }
   return places;
 }

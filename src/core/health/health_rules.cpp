@@ -24,11 +24,17 @@ LogChange commonLoad(const LogChange& damping, const LogChange& stiffness, const
   return {std::clamp(shrunk, range.first, range.second), stddev};
 }
 
+// Both worse than `level`, or both better. Not being able to tell confirms nothing but itself.
+bool confirmEachOther(HealthLevel level, HealthLevel a, HealthLevel b) {
+  if ((a == HealthLevel::kStale) != (b == HealthLevel::kStale)) return false;
+  return (a > level && b > level) || (a < level && b < level);
+}
+
 }  // namespace
 
 double StrutChange::apartStddev() const {
   const double d = measured.damping->stddev, s = measured.stiffness->stddev;
-  return std::sqrt(std::max(d * d + s * s - 2.0 * measured.correlation * d * s, 0.0));  // likewise
+  return std::sqrt(std::max(d * d + s * s - 2.0 * measured.correlation * d * s, 0.0));
 }
 
 LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
@@ -64,16 +70,6 @@ StrutChange splitChange(const MeasuredChange& measured, double payload_range, do
   change.stiffness_stddev = stiffness ? std::hypot(stiffness->stddev, load.stddev) : NAN;
   return change;
 }
-
-namespace {
-
-// Both worse than `level`, or both better. Not being able to tell confirms nothing but itself.
-bool confirmEachOther(HealthLevel level, HealthLevel a, HealthLevel b) {
-  if ((a == HealthLevel::kStale) != (b == HealthLevel::kStale)) return false;
-  return (a > level && b > level) || (a < level && b < level);
-}
-
-}  // namespace
 
 HealthLevel LevelConfirmation::update(Stamp stamp, HealthLevel now) {
   if (now == confirmed_ && pending_ == confirmed_ && stamp >= pending_since_) return confirmed_;  // as nearly always

@@ -123,17 +123,17 @@ class Inspector {
     StrutPlaces places;
     for (const InspectedStrut& strut : struts_)
       if (strut.place) places.push_back(*strut.place);
+    std::vector<StrutPair> pairs;
     if (places.size() == struts_.size()) {
-      std::vector<StrutPair> pairs = pairsOf(places);
-      for (StrutPair& pair : pairs)
-        if (places[pair.first][1] < places[pair.second][1]) std::swap(pair.first, pair.second);
+      pairs = pairsOf(places);
+      for (auto& [left, right] : pairs)
+        if (places[left][1] < places[right][1]) std::swap(left, right);
       return pairs;
     }
-    std::vector<StrutPair> pairs;
     for (const std::size_t left : {0, 2}) {
       const auto place = [&](std::size_t corner) {
         const auto is_it = [&](const InspectedStrut& strut) { return strut.name == kCornerNames[corner]; };
-        return static_cast<std::size_t>(std::find_if(struts_.begin(), struts_.end(), is_it) - struts_.begin());
+        return std::find_if(struts_.begin(), struts_.end(), is_it) - struts_.begin();
       };
       const StrutPair pair(place(left), place(left + 1));
       if (std::max(pair.first, pair.second) < struts_.size()) pairs.push_back(pair);

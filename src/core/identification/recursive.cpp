@@ -201,9 +201,9 @@ double RunningComparison::deviation(Mean value, Mean square) const {
 
 double RunningComparison::rmse() const { return deviation(kResidual, kSquareResidual); }
 
-double RunningComparison::fitPercent(double rmse) const {
+double RunningComparison::fitPercent() const {
   const double spread = deviation(kMeasured, kSquareMeasured);
-  return spread > 0.0 ? 100.0 * (1.0 - rmse / spread) : std::numeric_limits<double>::quiet_NaN();
+  return spread > 0.0 ? 100.0 * (1.0 - rmse() / spread) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace suspension_health_monitor

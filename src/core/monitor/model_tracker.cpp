@@ -223,7 +223,7 @@ void ModelTracker::compare(const CornerSample& sample, const std::optional<doubl
   comparison_.add(comparison.measured, *comparison.predicted);
   if (compared_++ % kSlowlyEvery != 0) return;
   comparison.rmse = comparison.base_rmse = comparison_.rmse();
-  comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent(comparison.rmse);
+  comparison.fit_percent = comparison.base_fit_percent = comparison_.fitPercent();
   free_run_fails_ = comparison_.isWorseThanConstant();
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -67,12 +66,9 @@ int MonitorSettings::horizonSamples(double period) const {
 
 IntegralFilterOptions MonitorSettings::filter(double period) const {
   const IntegralFilterOptions filter{horizonSamples(period), period, estimators.rule};
-  try {
-    HorizonIntegral(filter.horizon_samples, filter.period, filter.rule);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("integration_horizon = " + numberText(presentHorizon()) +
-                                " [s] with sample_period = " + numberText(period) + " [s] makes " + error.what());
-  }
+  prefixed("integration_horizon = " + numberText(presentHorizon()) + " [s] with sample_period = " + numberText(period) +
+               " [s] makes ",
+           [&] { HorizonIntegral(filter.horizon_samples, filter.period, filter.rule); });
   return filter;
 }
 
@@ -114,12 +110,6 @@ double MonitorSettings::fewestRows(double horizons, double period) const {
   constexpr double kShare = 0.9;
   const double forgotten = std::max(1.0 - forgettingFactor(period), 1e-12);
   return std::min(horizons * horizonSamples(period), kShare / forgotten);
-}
-
-HealthOptions MonitorSettings::health() const {
-  HealthOptions health;
-  static_cast<HealthThresholds&>(health) = *this;
-  return health;
 }
 
 }  // namespace suspension_health_monitor

@@ -138,7 +138,7 @@ void VehicleMonitor::addGridSample(const VehicleSample& sample) {
 
 void VehicleMonitor::addSample(const VehicleSample& sample) {
   VehicleChannels vehicle;
-  if (!blocks_) vehicle = VehicleChannels::ofAccelerometers(numStruts(), static_cast<std::size_t>(num_forces_));
+  if (!blocks_) vehicle = VehicleChannels::ofAccelerometers(numStruts(), num_forces_);
   forReadings(sample, [&](const VehicleReading& reading) { addReading(vehicle, reading); });
   addGridSample(sample);
 }
@@ -203,10 +203,9 @@ void VehicleMonitor::fitBodyIfDue() {
 Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {
   if (mistake_.isContradiction()) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   if (!body_) return Eigen::Vector2d::Zero();
-  const Eigen::Matrix2d absolute = body_->absoluteCovariance(estimate.strut, estimate.theta.head<2>(),
-                                                             Eigen::Matrix2d::Zero(), estimate.frictionDamping());
-  const Eigen::Array2d by_links = by_links_.row(static_cast<Eigen::Index>(estimate.strut)).transpose();
-  return (absolute.diagonal().array() + (by_links * estimate.theta.head<2>().array()).square()).sqrt();
+  const Eigen::Array2d own = estimate.theta.head<2>();
+  const Eigen::Array2d by_links = own * by_links_.row(estimate.strut).transpose();
+  return (body_->modelVariances(estimate.strut, own, estimate.frictionDamping()) + by_links.square()).sqrt();
 }
 
 StrutEstimate VehicleMonitor::overTheDrive(std::size_t strut) {

@@ -50,10 +50,7 @@ void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values
     grid_->push(sensor, stamp, values);
     return;
   }
-  const VehicleStreams::Sensor& its = streams_.sensors[sensor];
-  const std::size_t next =
-      sensor + 1 < streams_.sensors.size() ? streams_.sensors[sensor + 1].stream : streams_.options.size();
-  const EarlyReadings<std::vector<double>>::Reading reading{sensor, stamp, {values, values + (next - its.stream)}};
+  const EarlyReadings::Reading reading{sensor, stamp, {values, values + streams_.sensors[sensor].count}};
   if (grid_) {  // a sink has thrown while they were replayed
     early_.append(reading);
   } else {
@@ -78,7 +75,7 @@ void VehiclePipeline::startOnce(double period) {
 
 // A sink may throw; readings that come after those that it has seen wait for the next push().
 void VehiclePipeline::replayEarly() {
-  while (const auto reading = early_.next()) grid_->push(reading->stream, reading->stamp, reading->value);
+  while (const auto reading = early_.next()) grid_->push(reading->stream, reading->stamp, reading->values);
 }
 
 void VehiclePipeline::finish() {

@@ -46,7 +46,7 @@ BandlimitedInterpolator::BandlimitedInterpolator(double fraction) : weights_(2 *
   for (Eigen::Index i = 0; i < n; ++i) target[i] = bandMean(static_cast<double>(i) - wanted);
   const Eigen::VectorXd solution = gram.solve(target);
   // A constant, gravity say, comes out exactly.
-  for (Eigen::Index i = 0; i < n; ++i) weights_[static_cast<std::size_t>(i)] = solution[i] / solution.sum();
+  for (Eigen::Index i = 0; i < n; ++i) weights_[i] = solution[i] / solution.sum();
 }
 
 BandlimitedInterpolator BandlimitedInterpolator::integral(double from, double to, int power) {
@@ -114,7 +114,7 @@ MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t diffe
           BandlimitedInterpolator::kHalfWidth * kSignalTuning.widest_flat / (flat_ * toSeconds(period)) - 1e-9))),
       instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
       history_(filtered + differentiated, DelayLine(2 * delay_ + 1)),
-      stamps_(static_cast<std::size_t>(2 * delay_ + 1)) {
+      stamps_(2 * delay_ + 1) {
   std::tie(value_, rate_) = makePair(delay_, flat_ * toSeconds(period), stop() * toSeconds(period));
   rate_ /= toSeconds(period);
 }
@@ -138,7 +138,7 @@ const MotionFilter::Instant* MotionFilter::push(Stamp stamp, const std::vector<d
     instant_.unfiltered[i] = windowOf(i)[delay_];
   }
   for (std::size_t i = 0; i < instant_.rates.size(); ++i) instant_.rates[i] = rate_.dot(windowOf(filtered + i));
-  instant_.stamp = stamps_[static_cast<std::size_t>(delay_)];
+  instant_.stamp = stamps_[delay_];
   return &instant_;
 }
 

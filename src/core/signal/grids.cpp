@@ -119,20 +119,16 @@ bool ResampledGrid::begin(const GridStreams& streams) {
   return true;
 }
 
-// @return kInterrupted or kComes if one of them is.
+// @return kInterrupted if one of them is, else kComes if one of them is.
 Coverage ResampledGrid::advanceRequired(Stamp t, GridStreams& streams) {
-  bool is_interrupted = false, comes = false;
+  Coverage all = Coverage::kCovered;
   for (std::size_t i = 0; i < streams.size(); ++i) {
     if (!streams[i].options.required) continue;
     const Coverage coverage = resamplers_[i].advance(t, streams[i].waiting);
-    if (coverage == Coverage::kInterrupted) {
-      is_interrupted = true;
-      ++streams[i].missed;
-    }
-    comes = comes || coverage == Coverage::kComes;
+    if (coverage == Coverage::kInterrupted) ++streams[i].missed;
+    if (coverage == Coverage::kInterrupted || all == Coverage::kCovered) all = coverage;
   }
-  if (is_interrupted) return Coverage::kInterrupted;
-  return comes ? Coverage::kComes : Coverage::kCovered;
+  return all;
 }
 
 // @return false: readings of an optional stream for this instant may still come.

@@ -10,6 +10,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};  // D
+const double kConvincing = std::log(1e3);                     // likelihood ratio, its logarithm
 constexpr double kFewest = 200.0;                             // rows, whose scatter is known within a tenth
 
 /// @return x' T by the readings `apart` before and after.
@@ -40,12 +41,6 @@ void SamplingTest::add(double value, double off) {
   const bool is_certain = products_.weight() >= kFewest && square(beyond) > square(kProven) * variance;
   less_than_half_ = !is_certain ? 0 : (beyond < 0.0) == (moment > 0.0) ? 1 : -1;
 }
-
-namespace {
-
-const double kConvincing = std::log(1e3);
-
-}  // namespace
 
 void StreamClock::interrupt() {
   origin_.reset();

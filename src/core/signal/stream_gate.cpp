@@ -4,16 +4,13 @@ namespace suspension_health_monitor {
 void RangeEnd::add(double reading, const ReadingStatistics& all, double span) {
   count(reading, std::max(kSignalTuning.fine * span, kSignalTuning.band_steps * all.finestStep()));
   countFlatTops(reading, all);
-  if (!in_flat_top_ || flat_tops_ > 1 || all.equalInARow() < kSignalTuning.stuck) {
-    const bool far_out = std::abs(reading - all.mean()) > kSignalTuning.far_out * all.deviation();
-    const bool fine = all.finestStep() < kSignalTuning.fine * span;
-    // A sensor that reads 0 is dead: no range ends there.
-    if (in_flat_top_ && all.areUsual() && fine && reading != 0.0 && at_ > near_ &&
-        (far_out || flat_tops_ >= kSignalTuning.flat_tops))
-      limit_ = reading;
-  } else {
-    limit_.reset();
-  }
+  if (!in_flat_top_) return;
+  if (flat_tops_ <= 1 && all.equalInARow() >= kSignalTuning.stuck) return limit_.reset();
+  const bool far_out = std::abs(reading - all.mean()) > kSignalTuning.far_out * all.deviation();
+  const bool fine = all.finestStep() < kSignalTuning.fine * span;
+  // A sensor that reads 0 is dead: no range ends there.
+  if (all.areUsual() && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kSignalTuning.flat_tops))
+    limit_ = reading;
 }
 
 void RangeEnd::count(double reading, double band) {

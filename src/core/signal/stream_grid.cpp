@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
@@ -56,7 +55,7 @@ GridStreams::GridStreams(Stamp period, const std::vector<StreamOptions>& options
   const auto reference =
       std::find_if(options.begin(), options.end(), [](const StreamOptions& o) { return o.required; });
   if (reference == options.end()) throw std::invalid_argument("of the streams of a grid at least one must be required");
-  reference_ = static_cast<std::size_t>(reference - options.begin());
+  reference_ = reference - options.begin();
   std::size_t sensors = 0;
   streams_.reserve(options.size());
   for (const StreamOptions& each : options) {
@@ -83,17 +82,12 @@ bool GridStreams::rejectStuck() {
   const auto isCompared = [](const GridStream& stream) { return stream.options.required && !stream.options.is_force; };
   for (const GridStream& stream : streams_)
     if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
-  const auto standsStill = [&](const GridStream& stream) {
-    return isCompared(stream) && sensor_is_still_[stream.options.sensor];
-  };
-  const auto moves = [&](const GridStream& stream) {
-    return isCompared(stream) && !sensor_is_still_[stream.options.sensor];
-  };
-  if (std::none_of(streams_.begin(), streams_.end(), standsStill) ||
-      std::none_of(streams_.begin(), streams_.end(), moves))
-    return false;
+  bool stand_still = false, move = false;
+  for (const GridStream& stream : streams_)
+    if (isCompared(stream)) (sensor_is_still_[stream.options.sensor] ? stand_still : move) = true;
+  if (!stand_still || !move) return false;
   for (GridStream& stream : streams_)
-    if (standsStill(stream)) stream.rejected.add(RejectReason::kStuck);
+    if (isCompared(stream) && sensor_is_still_[stream.options.sensor]) stream.rejected.add(RejectReason::kStuck);
   return true;
 }
 

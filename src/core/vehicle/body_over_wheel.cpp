@@ -36,7 +36,7 @@ struct LinearFit {
 class SpectralFit {
  public:
   SpectralFit(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand& band) : spectra_(spectra) {
-    s_.resize(static_cast<Index>(spectra.size()));
+    s_.resize(spectra.size());
     for (Index k = 0; k < s_.size(); ++k) s_[k] = {0.0, band.omega(band.first + static_cast<int>(k))};
   }
 
@@ -44,26 +44,22 @@ class SpectralFit {
 
   /// @param bins  the first ones, that are used.
   LinearFit operator()(const Term& output, const std::vector<Term>& terms, Index bins) const {
-    const auto n = static_cast<Index>(terms.size());
-    const auto y = static_cast<Index>(output.signal);
+    const std::size_t n = terms.size();
     Eigen::ArrayXd power(bins);
-    for (Index k = 0; k < bins; ++k) power[k] = at(k)(y, y).real();
+    for (Index k = 0; k < bins; ++k) power[k] = spectra_[k](output.signal, output.signal).real();
     // Every bin counts by its share of the motion, those that are nearly silent by less.
     const Eigen::ArrayXd weight = (power + power.mean()).inverse();
     const auto product = [&](const Term& a, const Term& b) {
       double sum = 0.0;
       for (Index k = kSkipped; k < bins; ++k)
-        sum += weight[k] * (std::conj(a.weight[k]) * b.weight[k] *
-                            at(k)(static_cast<Index>(b.signal), static_cast<Index>(a.signal)))
-                               .real();
+        sum += weight[k] * (std::conj(a.weight[k]) * b.weight[k] * spectra_[k](b.signal, a.signal)).real();
       return sum;
     };
     Eigen::MatrixXd normal(n, n);
     Eigen::VectorXd right(n);
-    for (Index p = 0; p < n; ++p) {
-      right[p] = product(terms[static_cast<std::size_t>(p)], output);
-      for (Index q = 0; q <= p; ++q)
-        normal(p, q) = normal(q, p) = product(terms[static_cast<std::size_t>(p)], terms[static_cast<std::size_t>(q)]);
+    for (std::size_t p = 0; p < n; ++p) {
+      right[p] = product(terms[p], output);
+      for (std::size_t q = 0; q <= p; ++q) normal(p, q) = normal(q, p) = product(terms[p], terms[q]);
     }
     const Eigen::VectorXd scale = normal.diagonal().cwiseMax(kTiny).cwiseSqrt().cwiseInverse();
     LinearFit fit;
@@ -74,8 +70,6 @@ class SpectralFit {
   }
 
  private:
-  const Eigen::MatrixXcd& at(Index k) const { return spectra_[static_cast<std::size_t>(k)]; }
-
   const std::vector<Eigen::MatrixXcd>& spectra_;
   Eigen::ArrayXcd s_;
 };
@@ -88,8 +82,8 @@ struct Response {
   double explained = 0.0, delay = 0.0;
 
   double dampingOf(std::size_t wheel) const {
-    const auto place = std::find(wheels.begin(), wheels.end(), wheel) - wheels.begin();
-    return static_cast<std::size_t>(place) < wheels.size() ? damping[static_cast<std::size_t>(place)] : 0.0;
+    const std::size_t place = std::find(wheels.begin(), wheels.end(), wheel) - wheels.begin();
+    return place < wheels.size() ? damping[place] : 0.0;
   }
 };
 
@@ -99,8 +93,7 @@ class Pairing {
       : signals_(signals), fit_(signals.spectra, signals.band), rates_(rates), shake_(signals.imus, 0.0) {
     for (std::size_t k = 0; k < signals.spectra.size(); ++k)
       if (signals.band.omega(signals.band.first + static_cast<int>(k)) >= 2.0 * M_PI * kShake)
-        for (std::size_t i = 0; i < shake_.size(); ++i)
-          shake_[i] += signals.spectra[k](static_cast<Index>(i), static_cast<Index>(i)).real();
+        for (std::size_t i = 0; i < shake_.size(); ++i) shake_[i] += signals.spectra[k](i, i).real();
   }
 
   const ImuSignals& signals() const { return signals_; }
@@ -113,21 +106,21 @@ class Pairing {
   Response respond(std::size_t signal, const std::vector<std::size_t>& wheels) const {
     Response best{wheels, std::vector<double>(wheels.size()), std::vector<double>(wheels.size())};
     if (wheels.empty()) return best;
-    double delay = 0.0;
     LinearFit nearest;
     for (double tried = -kFarthestDelay; tried < kFarthestDelay + kDelayStep / 2.0; tried += kDelayStep) {
       const LinearFit found = fit(signal, wheels, tried);
-      if (found.left < nearest.left) nearest = found, delay = tried;
+      if (!(found.left < nearest.left)) continue;
+      nearest = found;
+      best.delay = tried;
     }
     if (nearest.parameters.size() == 0) return best;  // a signal that is 0
-    const double alone = fit(signal, {}, delay).left;
+    const double alone = fit(signal, {}, best.delay).left;
     best.explained = 1.0 - nearest.left / alone;
-    best.delay = delay;
     for (std::size_t j = 0; j < wheels.size(); ++j) {
-      best.damping[j] = nearest.parameters[static_cast<Index>(2 + 2 * j)];
+      best.damping[j] = nearest.parameters[2 + 2 * j];
       std::vector<std::size_t> others = wheels;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-      best.worth[j] = (fit(signal, others, delay).left - nearest.left) / alone;
+      best.worth[j] = (fit(signal, others, best.delay).left - nearest.left) / alone;
     }
     return best;
   }
@@ -178,38 +171,38 @@ std::vector<std::optional<Response>> findBodies(const Pairing& pairing) {
 
 /// @return b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
 Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies, std::size_t imus) {
-  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(static_cast<Index>(bodies.size()), static_cast<Index>(imus));
+  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(bodies.size(), imus);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i]) continue;
     for (std::size_t j = 0; j < bodies[i]->wheels.size(); ++j)
-      if (bodies[i]->worth[j] > kWorthHaving)
-        push(static_cast<Index>(i), static_cast<Index>(bodies[i]->wheels[j])) = bodies[i]->damping[j];
+      if (bodies[i]->worth[j] > kWorthHaving) push(i, bodies[i]->wheels[j]) = bodies[i]->damping[j];
   }
   return push;
 }
 
 /// @return the signal of the body over a wheel: of the IMUs the one that it pushes hardest, as far as wheels explain
 /// what that reads; else one that it turns.
-std::optional<std::size_t> bodyOver(Index wheel, const Eigen::MatrixXd& push, const ImuSignals& signals,
+std::optional<std::size_t> bodyOver(std::size_t wheel, const Eigen::MatrixXd& push, const ImuSignals& signals,
                                     const std::vector<std::optional<Response>>& bodies) {
-  const auto imus = static_cast<Index>(signals.imus);
-  const auto may_serve_several = [&](Index body) {
-    return std::count(signals.owners.begin(), signals.owners.end(), static_cast<std::size_t>(body)) > 1;
+  const auto may_serve_several = [&](std::size_t body) {
+    return std::count(signals.owners.begin(), signals.owners.end(), body) > 1;
   };
+  const Eigen::ArrayXXd size = push.topRows(signals.imus).cwiseAbs();
+  const Eigen::ArrayXXd share = size.rowwise() / size.colwise().maxCoeff().max(kTiny);
   std::optional<std::size_t> best;
   double hardest = 0.0;
-  for (Index body = 0; body < imus; ++body) {
-    if (push(body, wheel) == 0.0) continue;
+  for (std::size_t body = 0; body < signals.imus; ++body) {
+    if (size(body, wheel) == 0.0) continue;
     // An IMU that serves one wheel alone is that wheel's more than any other's.
-    Index its_own = 0;
-    (push.row(body).cwiseAbs().array() / push.topRows(imus).cwiseAbs().colwise().maxCoeff().array().max(kTiny))
-        .maxCoeff(&its_own);
-    const auto place = static_cast<std::size_t>(body);
-    const double here = bodies[place]->explained * std::abs(push(body, wheel));
-    if (here > hardest && (its_own == wheel || may_serve_several(body))) best = place, hardest = here;
+    std::size_t its_own = 0;
+    share.row(body).maxCoeff(&its_own);
+    const double here = bodies[body]->explained * size(body, wheel);
+    if (!(here > hardest && (its_own == wheel || may_serve_several(body)))) continue;
+    best = body;
+    hardest = here;
   }
-  for (Index turn = imus; turn < push.rows() && !best; ++turn)
-    if (push(turn, wheel) != 0.0) best = static_cast<std::size_t>(turn);
+  for (std::size_t turn = signals.imus; turn < bodies.size() && !best; ++turn)
+    if (push(turn, wheel) != 0.0) best = turn;
   return best;
 }
 
@@ -217,29 +210,28 @@ std::optional<std::size_t> bodyOver(Index wheel, const Eigen::MatrixXd& push, co
 /// @return false: it is no damped spring.
 bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairing, BodyOverWheel& pair) {
   const ImuSignals& given = pairing.signals();
-  const Index imus = given.spectra.front().rows(), struts = static_cast<Index>(pairs.size());
-  Eigen::MatrixXcd signals =
-      Eigen::MatrixXcd::Identity(imus + struts, imus);  // the IMUs, then w'' - z'' of every strut
+  const std::size_t imus = given.owners.size();
+  // The IMUs, then w'' - z'' of every strut.
+  Eigen::MatrixXcd signals = Eigen::MatrixXcd::Identity(imus + pairs.size(), imus);
   std::vector<Eigen::MatrixXcd> all;
   for (const Eigen::MatrixXcd& each : given.spectra) {
     const double omega = given.band.omega(given.band.first + static_cast<int>(all.size()));
-    for (Index j = 0; j < struts; ++j) {
-      const BodyOverWheel& of = pairs[static_cast<std::size_t>(j)];
-      signals(imus + j, static_cast<Index>(of.wheel)) = of.is_reversed ? -1.0 : 1.0;
-      signals(imus + j, static_cast<Index>(of.body)) = -std::polar(1.0, omega * of.delay);
+    for (std::size_t j = 0; j < pairs.size(); ++j) {
+      signals(imus + j, pairs[j].wheel) = pairs[j].is_reversed ? -1.0 : 1.0;
+      signals(imus + j, pairs[j].body) = -std::polar(1.0, omega * pairs[j].delay);
     }
     all.emplace_back(signals * each * signals.adjoint());
   }
   const SpectralFit fit(all, given.band);
   const Eigen::ArrayXcd &s = fit.s(), late = (s * pair.delay).exp();
   std::vector<Term> terms{{pair.body, -s * late}};
-  Index own = 0;
+  std::size_t own = 0;
   std::vector<std::size_t> wheels;
   for (std::size_t j = 0; j < pairs.size(); ++j) {
-    if (pairs[j].wheel == pair.wheel) own = static_cast<Index>(terms.size());
+    if (pairs[j].wheel == pair.wheel) own = terms.size();
     wheels.push_back(pairs[j].wheel);
-    terms.push_back({static_cast<std::size_t>(imus) + j, s.inverse()});
-    terms.push_back({static_cast<std::size_t>(imus) + j, s.square().inverse()});
+    terms.push_back({imus + j, s.inverse()});
+    terms.push_back({imus + j, s.square().inverse()});
   }
   const LinearFit found = fit({pair.body, late}, terms, pairing.bins(pair.body, wheels));
   pair.delay += found.parameters[0];
@@ -257,14 +249,13 @@ std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const
   const Eigen::MatrixXd push = pushOf(bodies, signals.imus);
   std::vector<BodyOverWheel> all, pairs;
   std::vector<std::size_t> served(signals.imus, 0);
-  for (Index wheel = 0; wheel < push.cols(); ++wheel) {
+  for (std::size_t wheel = 0; wheel < signals.imus; ++wheel) {
     const std::optional<std::size_t> signal = bodyOver(wheel, push, signals, bodies);
     if (!signal) continue;
     const std::size_t body = signals.owners[*signal];
     // Of a wheel that was found by how it turns the body, too: which way it pushes is known better than how hard.
-    const bool is_reversed = bodies[body]->dampingOf(static_cast<std::size_t>(wheel)) < 0.0;
-    all.push_back({body, static_cast<std::size_t>(wheel), is_reversed, true, bodies[body]->explained, 0.0, 0.0,
-                   bodies[body]->delay});
+    const bool is_reversed = bodies[body]->dampingOf(wheel) < 0.0;
+    all.push_back({body, wheel, is_reversed, true, bodies[body]->explained, 0.0, 0.0, bodies[body]->delay});
     ++served[body];
   }
   for (BodyOverWheel pair : all) {

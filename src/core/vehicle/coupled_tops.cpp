@@ -9,26 +9,29 @@ VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleChannels& veh
       vehicle_(vehicle),
       modulation_(band),
       phases_(band),
+      num_effects_(effects),
+      streams_(vehicle.struts.size(), FourierIntegrals(band, effects > 0 ? 1 : 2)),
       channel_(band.spectrumSize()),
       derivative_(band.size()) {
   for (const VehicleChannels::Strut& strut : vehicle.struts) {
-    wheels_.emplace_back(band, effects > 0 ? 1 : 2);
-    own_of_.push_back(own_.size());
-    if (strut.sprung) own_.emplace_back(band, 1);
+    top_of_.push_back(streams_.size());
+    if (strut.sprung) streams_.emplace_back(band, 1);
   }
-  if (vehicle.numTopsOfBody() > 0) body_.emplace_back(band, kBodyChannels);
-  for (std::size_t i = 0; i < vehicle.known_forces.size(); ++i) forces_.emplace_back(band, 1);
-  if (effects > 0) effects_.emplace_back(band, effects);
+  body_ = streams_.size();
+  if (vehicle.numTopsOfBody() > 0) streams_.emplace_back(band, kBodyChannels);
+  forces_ = streams_.size();
+  streams_.resize(forces_ + vehicle.known_forces.size(), FourierIntegrals(band, 1));
+  if (effects > 0) streams_.emplace_back(band, effects);
 }
 
 void VehicleSpectra::push(const VehicleReading& reading, double time, double direction) {
   using Sensor = VehicleReading::Sensor;
   const auto& values = reading.values;
-  if (reading.sensor == Sensor::kTop) return own_[own_of_[reading.place]].push(time, values.data(), phases_);
-  if (reading.sensor == Sensor::kForce) return forces_[reading.place].push(time, values.data(), phases_);
+  if (reading.sensor == Sensor::kTop) return streams_[top_of_[reading.place]].push(time, values.data(), phases_);
+  if (reading.sensor == Sensor::kForce) return streams_[forces_ + reading.place].push(time, values.data(), phases_);
   if (reading.sensor == Sensor::kWheel) {
     const double of_wheel[] = {values[0], direction};
-    return wheels_[reading.place].push(time, of_wheel, phases_);
+    return streams_[reading.place].push(time, of_wheel, phases_);
   }
   const double wx = values[3], wy = values[4], wz = values[5];
   std::array<double, kBodyChannels> of_body;
@@ -38,51 +41,44 @@ void VehicleSpectra::push(const VehicleReading& reading, double time, double dir
   of_body[kWzWx] = wz * wx;
   of_body[kWzWy] = wz * wy;
   of_body[kWx2Wy2] = wx * wx + wy * wy;
-  body_.front().push(time, of_body.data(), phases_);
+  streams_[body_].push(time, of_body.data(), phases_);
 }
 
 void VehicleSpectra::restart() {
-  for (auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
-    for (FourierIntegrals& stream : *streams) stream.restart();
-}
-
-template <class Predicate>
-bool VehicleSpectra::areAll(const Predicate& predicate) const {
-  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
-    if (!std::all_of(streams->begin(), streams->end(), predicate)) return false;
-  return true;
+  for (FourierIntegrals& stream : streams_) stream.restart();
 }
 
 bool VehicleSpectra::isPassed(long half) const {
-  return areAll([&](const FourierIntegrals& stream) { return stream.openHalf() > half; });
+  return std::all_of(streams_.begin(), streams_.end(),
+                     [&](const FourierIntegrals& stream) { return stream.openHalf() > half; });
 }
 
 bool VehicleSpectra::isWhole(long half) const {
-  return areAll(
-      [&](const FourierIntegrals& stream) { return stream.half(half - 1) != nullptr && stream.half(half) != nullptr; });
+  return std::all_of(streams_.begin(), streams_.end(), [&](const FourierIntegrals& stream) {
+    return stream.half(half - 1) != nullptr && stream.half(half) != nullptr;
+  });
 }
 
 long VehicleSpectra::newestOpen() const {
   long newest = 0;
-  for (const auto* streams : {&wheels_, &own_, &body_, &forces_, &effects_})
-    for (const FourierIntegrals& stream : *streams) newest = std::max(newest, stream.openHalf());
+  for (const FourierIntegrals& stream : streams_) newest = std::max(newest, stream.openHalf());
   return newest;
 }
 
 void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
   block.end = static_cast<double>(half + 1) * band_.length / 2.0;
-  wheels_[strut].sumHalves(half, 0, block.wheel);
+  streams_[strut].sumHalves(half, 0, block.wheel);
   Eigen::Index column = 0;
   const auto fillForce = [&](const FourierIntegrals& stream, Eigen::Index channel) {
     stream.sumHalves(half, channel, channel_);
     block.forces.col(column++) = channel_;
   };
-  if (effects_.empty()) fillForce(wheels_[strut], 1);
-  while (column < block.forces.cols() - static_cast<Eigen::Index>(forces_.size())) fillForce(effects_.front(), column);
-  for (const FourierIntegrals& force : forces_) fillForce(force, 0);
+  if (num_effects_ == 0) fillForce(streams_[strut], 1);
+  for (std::size_t j = 0; j < num_effects_; ++j) fillForce(streams_.back(), j);
+  for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k) fillForce(streams_[forces_ + k], 0);
   if (!vehicle_.struts[strut].sprung) return fillByBody(*vehicle_.struts[strut].position, half, block);
-  own_[own_of_[strut]].sumHalves(half, 0, channel_);
-  for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(static_cast<Eigen::Index>(p)));
+  streams_[top_of_[strut]].sumHalves(half, 0, channel_);
+  for (std::size_t p = 0; p < 3; ++p) modulation_.apply(p, channel_, block.body.col(p));
 }
 
 void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block) {
@@ -99,60 +95,60 @@ void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, Stru
                         {kWx2Wy2, 0, -position.z()}};
   block.body.setZero();
   for (const Part& part : parts) {
-    body_.front().sumHalves(half, static_cast<Eigen::Index>(part.channel), channel_);
+    streams_[body_].sumHalves(half, part.channel, channel_);
     for (std::size_t p = 0; p < 3; ++p) {
       modulation_.apply(p + part.derivatives, channel_, derivative_);
-      block.body.col(static_cast<Eigen::Index>(p)) += part.factor * derivative_;
+      block.body.col(p) += part.factor * derivative_;
     }
   }
 }
 
 CoupledTops::CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces)
-    : modulation_(band), s_(modulation_.s()), lu_(static_cast<Eigen::Index>(struts)) {
-  const auto n = static_cast<Eigen::Index>(struts), m = static_cast<Eigen::Index>(forces);
-  rows_ = {Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, m)};
-  wheels_.setZero(s_.size(), n);
+    : modulation_(band), s_(modulation_.s()), lu_(struts) {
+  rows_ = {Eigen::MatrixXd::Zero(struts, struts), Eigen::MatrixXd::Zero(struts, struts),
+           Eigen::MatrixXd::Zero(struts, forces)};
+  wheels_.setZero(s_.size(), struts);
   travel_ = wheels_;
-  forces_.setZero(s_.size(), m);
+  forces_.setZero(s_.size(), forces);
 }
 
 void CoupledTops::setRows(const TopRows& rows) {
   rows_ = rows;
   const auto n = wheels_.cols();
-  follows_.resize(static_cast<std::size_t>(s_.size()));
+  follows_.resize(s_.size());
   for (Eigen::Index b = 0; b < s_.size(); ++b) {
-    const std::complex<double> s2 = s_[b] * s_[b];
-    Small& q = follows_[static_cast<std::size_t>(b)];
-    q = rows_.rate * s_[b] + rows_.travel.cast<std::complex<double>>();
-    q.diagonal().array() += s2;
-    lu_.compute(q);
-    q = s2 * lu_.solve(Small::Identity(n, n));
+    lu_.compute(loopAt(b));
+    follows_[b] = s_[b] * s_[b] * lu_.solve(Small::Identity(n, n));
   }
+}
+
+CoupledTops::Small CoupledTops::loopAt(Eigen::Index bin) const {
+  Small loop = rows_.rate * s_[bin] + rows_.travel.cast<std::complex<double>>();
+  loop.diagonal().array() += s_[bin] * s_[bin];
+  return loop;
 }
 
 const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const StrutEquations& equations) {
   const NoiseBands& bands = equations.noiseBands();
   const BlockColumns& columns = equations.columns();
   const auto n = static_cast<std::size_t>(wheels_.cols());
-  const auto i = static_cast<Eigen::Index>(strut);
-  const double b1 = rows_.rate(i, i), b0 = rows_.travel(i, i);
+  const double b1 = rows_.rate(strut, strut), b0 = rows_.travel(strut, strut);
   const auto columnOf = [&](std::size_t j) {
     return j == strut ? int{kBlockDamping} : columns.firstNeighbour() + neighbourColumn(strut, j);
   };
-  noise_.assign(static_cast<std::size_t>(bands.count()),
-                {BlockMatrix::Zero(columns.numParameters(), columns.numParameters()), 0.0});
+  noise_.assign(bands.count(), {BlockMatrix::Zero(columns.numParameters(), columns.numParameters()), 0.0});
   for (int band = 0; band < bands.count(); ++band) {
-    WheelNoise& noise = noise_[static_cast<std::size_t>(band)];
+    WheelNoise& noise = noise_[band];
     BlockMatrix& sum = noise.information;
     for (int bin = bands.first(band); bin < bands.first(band) + bands.size(band); ++bin) {
       const std::complex<double> s = s_[bin];
       const double a2 = std::norm(s * s + b1 * s + b0);
-      const Small& follows = follows_[static_cast<std::size_t>(bin)];
-      for (Eigen::Index j = 0; j < follows.cols(); ++j)
-        noise.output += std::norm((j == i ? 1.0 : 0.0) - follows(i, j)) / bands.size(band);
+      const Small& follows = follows_[bin];
+      for (std::size_t j = 0; j < n; ++j)
+        noise.output += std::norm((j == strut ? 1.0 : 0.0) - follows(strut, j)) / bands.size(band);
       for (std::size_t k = 0; k < n; ++k)
         for (std::size_t j = 0; j < n; ++j) {
-          const std::complex<double> z = std::conj(follows(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)));
+          const std::complex<double> z = std::conj(follows(k, j));
           const int row = columnOf(k), column = columnOf(j);
           sum(row, column) += std::real(z) * std::norm(s) / a2;
           sum(row + 1, column + 1) += std::real(z) / a2;
@@ -166,19 +162,16 @@ const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const 
 
 void CoupledTops::predict(const std::vector<const StrutBlock*>& blocks, int first_force) {
   const auto n = wheels_.cols();
-  for (Eigen::Index j = 0; j < n; ++j) modulation_.apply(0, blocks[static_cast<std::size_t>(j)]->wheel, wheels_.col(j));
+  for (Eigen::Index j = 0; j < n; ++j) modulation_.apply(0, blocks[j]->wheel, wheels_.col(j));
   for (Eigen::Index k = 0; k < forces_.cols(); ++k)
     modulation_.apply(2, blocks.front()->forces.col(first_force + k), forces_.col(k));
-  Small q(n, n);
   SmallVector right(n), x(n);
   for (Eigen::Index b = 0; b < s_.size(); ++b) {
     // (s^2 I + Q) (X - Z) = s^2 X - s^2 c F
-    q = rows_.rate * s_[b] + rows_.travel.cast<std::complex<double>>();
-    q.diagonal().array() += s_[b] * s_[b];
     x = wheels_.row(b).matrix().transpose();
     right = s_[b] * s_[b] * x;
     if (forces_.cols() > 0) right -= rows_.force * forces_.row(b).matrix().transpose();
-    lu_.compute(q);
+    lu_.compute(loopAt(b));
     travel_.row(b) = lu_.solve(right).array().transpose();
   }
 }

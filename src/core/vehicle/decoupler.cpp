@@ -6,6 +6,18 @@
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+// The natural period of the slowest strut [samples], even.
+int naturalPeriod(const std::vector<StrutModel>& models, double period) {
+  double slowest = 0.0;
+  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
+  return 2 *
+         std::max(1, static_cast<int>(std::lround(std::min(slowest, kVehicleTuning.longest_period) / (2.0 * period))));
+}
+
+}  // namespace
+
 int TravelObserver::delayOf(int natural_period) {
   return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
 }
@@ -18,9 +30,7 @@ TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natu
       offset_(std::exp(-period / kVehicleTuning.offset_memory)),
       slow_(now_.size(),
             LinearIntegralFilter(kVehicleTuning.means, {natural_period, period, IntegrationRule::kTrapezoid}, 0)),
-      recent_(now_.size(),
-              boost::circular_buffer<double>(static_cast<std::size_t>(kVehicleTuning.means * natural_period / 2) + 1)) {
-}
+      recent_(now_.size(), boost::circular_buffer<double>(kVehicleTuning.means * natural_period / 2 + 1)) {}
 
 void TravelObserver::push(double relative_acceleration) {
   offset_.add(relative_acceleration);
@@ -55,24 +65,11 @@ void TravelObserver::startNewSeries() {
   for (auto& values : recent_) values.clear();
 }
 
-namespace {
-
-// That of the slowest strut [samples], even.
-int naturalPeriod(const std::vector<StrutModel>& models, double period) {
-  double slowest = 0.0;
-  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
-  return 2 *
-         std::max(1, static_cast<int>(std::lround(std::min(slowest, kVehicleTuning.longest_period) / (2.0 * period))));
-}
-
-}  // namespace
-
 Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<StrutModel>& models,
                      const std::vector<double>& low_pass)
     : period_(period),
       taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass),
-      force_means_(static_cast<std::size_t>(rows.force.cols()),
-                   LimitedMean(std::exp(-period / kVehicleTuning.mean_memory))) {
+      force_means_(rows.force.cols(), LimitedMean(std::exp(-period / kVehicleTuning.mean_memory))) {
   setRows(rows);
   const int natural_period = naturalPeriod(models, period);
   for (const StrutModel& model : models)
@@ -80,7 +77,7 @@ Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<Stru
                        LimitedMean(std::exp(-period / kVehicleTuning.mean_memory)),
                        RunningMean(std::exp(-period / kVehicleTuning.mean_memory)),
                        boost::circular_buffer<Observed>(taps_.size())});
-  recent_.set_capacity(static_cast<std::size_t>(TravelObserver::delayOf(natural_period)) + taps_.size() / 2 + 1);
+  recent_.set_capacity(TravelObserver::delayOf(natural_period) + taps_.size() / 2 + 1);
 }
 
 void Decoupler::setRows(const BodyRows& rows) {
@@ -99,31 +96,27 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   recent_.push_back(sample);
   const StrutVector& wheels = taps_.size() > 1 ? sample.unfiltered : sample.unsprung;
   for (std::size_t j = 0; j < struts_.size(); ++j) {
-    const auto place = static_cast<Eigen::Index>(j);
-    struts_[j].gravity.add(sample.sprung[place]);
-    struts_[j].travel.push(wheels[place] - sample.sprung[place]);
+    struts_[j].gravity.add(sample.sprung[j]);
+    struts_[j].travel.push(wheels[j] - sample.sprung[j]);
   }
-  for (std::size_t k = 0; k < force_means_.size(); ++k)
-    force_means_[k].add(sample.forces[static_cast<Eigen::Index>(k)]);
+  for (std::size_t k = 0; k < force_means_.size(); ++k) force_means_[k].add(sample.forces[k]);
   if (!struts_.front().travel.full()) return nullptr;
   const std::size_t observed = recent_.size() + taps_.size() / 2 - recent_.capacity();
   const StrutVector& body = recent_[observed].sprung;
-  for (std::size_t j = 0; j < struts_.size(); ++j)
-    follow(struts_[j], body[static_cast<Eigen::Index>(j)] - struts_[j].gravity.mean());
+  for (std::size_t j = 0; j < struts_.size(); ++j) follow(struts_[j], body[j] - struts_[j].gravity.mean());
   if (!struts_.front().observed.full()) return nullptr;
 
   out_ = recent_.front();
   ForceVector forces = out_.forces;
-  for (std::size_t k = 0; k < force_means_.size(); ++k) forces[static_cast<Eigen::Index>(k)] -= force_means_[k].mean();
+  for (std::size_t k = 0; k < force_means_.size(); ++k) forces[k] -= force_means_[k].mean();
   std::array<StrutVector, kParts> parts;
   parts.fill(StrutVector(out_.sprung.size()));
   StrutVector stiffness(out_.sprung.size()), slow = stiffness;
   for (std::size_t j = 0; j < struts_.size(); ++j) {
-    const auto place = static_cast<Eigen::Index>(j);
     const Observed of_strut = filtered(struts_[j]);
-    for (const Part part : {kDamper, kSpring, kLaw}) parts[part][place] = of_strut[part];
-    slow[place] = out_.unsprung[place] - out_.sprung[place] - of_strut[kParts];
-    stiffness[place] = struts_[j].model.stiffness_to_mass;
+    for (const Part part : {kDamper, kSpring, kLaw}) parts[part][j] = of_strut[part];
+    slow[j] = out_.unsprung[j] - out_.sprung[j] - of_strut[kParts];
+    stiffness[j] = struts_[j].model.stiffness_to_mass;
   }
   StrutVector neighbours = forces_ * forces;
   for (const Part part : {kDamper, kSpring, kLaw}) neighbours += ratios_[part] * parts[part];

@@ -34,7 +34,7 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
   std::array<Eigen::Vector3d, kVehicleTuning.fewest_parts> parts;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   for (std::ptrdiff_t i = 0; i < kVehicleTuning.fewest_parts; ++i) {
-    Eigen::Vector3d& part = parts[static_cast<std::size_t>(i)];
+    Eigen::Vector3d& part = parts[i];
     part = medianOf(begin + (end - begin) * i / kVehicleTuning.fewest_parts,
                     begin + (end - begin) * (i + 1) / kVehicleTuning.fewest_parts);
     gravity += part / kVehicleTuning.fewest_parts;

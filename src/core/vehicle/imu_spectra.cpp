@@ -25,9 +25,8 @@ ImuSpectra::ImuSpectra(std::size_t imus)
       modulation_(band_),
       phases_(band_),
       streams_(imus, {FourierIntegrals(band_, kAxes)}),
-      sums_(static_cast<std::size_t>(band_.size()),
-            Eigen::MatrixXcd::Zero(static_cast<Index>(kAxes * imus), static_cast<Index>(kAxes * imus))),
-      counts_(Eigen::MatrixXd::Zero(static_cast<Index>(imus), static_cast<Index>(imus))) {}
+      sums_(band_.size(), Eigen::MatrixXcd::Zero(kAxes * imus, kAxes * imus)),
+      counts_(Eigen::MatrixXd::Zero(imus, imus)) {}
 
 void ImuSpectra::push(std::size_t imu, Stamp stamp, const SixAxes& reading) {
   Stream& stream = streams_[imu];
@@ -60,12 +59,12 @@ void ImuSpectra::takeBlocks(long end) {
   // After a pause the half blocks of the time before are gone.
   next_half_ = std::max(next_half_, end - FourierIntegrals::kHalves);
   for (; next_half_ < end; ++next_half_) {
-    const auto imus = static_cast<Index>(streams_.size());
+    const std::size_t imus = streams_.size();
     Eigen::MatrixXcd values = Eigen::MatrixXcd::Zero(band_.size(), kAxes * imus);
     Eigen::VectorXd is_there = Eigen::VectorXd::Zero(imus);
     Eigen::ArrayXcd integrals(band_.spectrumSize()), bins(band_.size());
-    for (Index i = 0; i < imus; ++i) {
-      const FourierIntegrals& stream = streams_[static_cast<std::size_t>(i)].integrals;
+    for (std::size_t i = 0; i < imus; ++i) {
+      const FourierIntegrals& stream = streams_[i].integrals;
       if (stream.half(next_half_) == nullptr || stream.half(next_half_ - 1) == nullptr) continue;
       is_there[i] = 1.0;
       for (Index axis = 0; axis < kAxes; ++axis) {
@@ -75,8 +74,7 @@ void ImuSpectra::takeBlocks(long end) {
       }
     }
     counts_ += is_there * is_there.transpose();
-    for (Index k = 0; k < values.rows(); ++k)
-      sums_[static_cast<std::size_t>(k)] += values.row(k).transpose() * values.row(k).conjugate();
+    for (Index k = 0; k < values.rows(); ++k) sums_[k] += values.row(k).transpose() * values.row(k).conjugate();
   }
 }
 
@@ -85,7 +83,7 @@ double ImuSpectra::rms(std::size_t imu, const Eigen::Vector3d& direction, double
   for (std::size_t k = 0; k < sums_.size(); ++k) {
     const double frequency = (band_.first + static_cast<int>(k)) / band_.length;
     if (frequency < from_hz || frequency >= to_hz) continue;
-    const auto own = sums_[k].block<3, 3>(static_cast<Index>(kAxes * imu), static_cast<Index>(kAxes * imu));
+    const auto own = sums_[k].block<3, 3>(kAxes * imu, kAxes * imu);
     sum += direction.dot(own.real() * direction);
   }
   // By Parseval under Hann's window, as WindowEstimate::setMotion().
@@ -98,19 +96,16 @@ ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::
   for (std::size_t i = 0; i < signals.imus; ++i) signals.owners.push_back(i);
   for (std::size_t i = 0; i < signals.imus; ++i)
     if (has_gyro[i]) signals.owners.insert(signals.owners.end(), 3, i);
-  const auto size = static_cast<Index>(signals.owners.size()), imus = static_cast<Index>(signals.imus);
+  const std::size_t size = signals.owners.size(), imus = signals.imus;
   Eigen::MatrixXcd directions = Eigen::MatrixXcd::Zero(size, kAxes * imus);
   Eigen::MatrixXd counts(size, size);
-  for (Index i = 0; i < size; ++i) {
-    const auto owner = static_cast<Index>(signals.owners[static_cast<std::size_t>(i)]);
-    if (i < imus) directions.block<1, 3>(i, kAxes * i) = up[static_cast<std::size_t>(i)].transpose();
-    for (Index j = 0; j < size; ++j)
-      counts(i, j) = std::max(1.0, counts_(owner, static_cast<Index>(signals.owners[static_cast<std::size_t>(j)])));
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i < imus) directions.block<1, 3>(i, kAxes * i) = up[i].transpose();
+    for (std::size_t j = 0; j < size; ++j) counts(i, j) = std::max(1.0, counts_(signals.owners[i], signals.owners[j]));
   }
   for (std::size_t k = 0; k < sums_.size(); ++k) {
-    for (Index i = imus; i < size; ++i)
-      directions(i, kAxes * static_cast<Index>(signals.owners[static_cast<std::size_t>(i)]) + 3 + (i - imus) % 3) =
-          modulation_.s()[static_cast<Index>(k)];
+    for (std::size_t i = imus; i < size; ++i)
+      directions(i, kAxes * signals.owners[i] + 3 + (i - imus) % 3) = modulation_.s()[k];
     signals.spectra.emplace_back(directions * sums_[k] * directions.adjoint());
     signals.spectra.back().array() /= counts.array();
   }

@@ -8,6 +8,7 @@
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
+#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
@@ -117,18 +118,15 @@ std::optional<Left> leftBy(const StrutModel& model, const Drive& drive, double p
   const std::deque<DriveRecord> records = makeRecords({drive}, period, model);
   const auto initial = estimateInitialStates(pointersTo(records), model);
   if (!initial) return std::nullopt;
-  Left left{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(drive.samples.size())),
-            std::vector<Eigen::Index>(drive.samples.size(), 0)};
+  Left left{Eigen::VectorXd::Zero(drive.samples.size()), std::vector<Eigen::Index>(drive.samples.size(), 0)};
   std::vector<double> predicted;
   std::size_t at = 0, s = 0;
   for (const DriveSegment* segment : segmentsOf(pointersTo(records))) {
     if (!runFree(model, *segment, (*initial)[s++], predicted)) return std::nullopt;
     while (drive.samples[at].stamp != segment->stamps.front()) ++at;
-    const auto size = static_cast<Eigen::Index>(segment->size());
-    for (Eigen::Index k = 0; k < size; ++k, ++at) {
-      const auto sample = static_cast<std::size_t>(k);
-      left.values[static_cast<Eigen::Index>(at)] = segment->sprung[sample] - predicted[sample];
-      left.room[at] = 1 + std::min(k, size - 1 - k);
+    for (std::size_t k = 0; k < segment->size(); ++k, ++at) {
+      left.values[at] = segment->sprung[k] - predicted[k];
+      left.room[at] = 1 + std::min(k, segment->size() - 1 - k);
     }
   }
   return left;
@@ -145,47 +143,39 @@ std::vector<Left> leftOf(const StrutDrives& drive, double period, const std::vec
   return all;
 }
 
-/// E[a(k) b(k + lag)].
-class Covariances {
- public:
-  Covariances(const std::vector<Left>& noise, Eigen::Index most) : most_(most), num_(noise.size()) {
-    const Eigen::Index size = noise.front().values.size();
-    for (const Left& a : noise)
-      for (const Left& b : noise)
-        for (Eigen::Index lag = -most; lag <= most; ++lag)
-          values_.push_back(a.values.segment(most, size - 2 * most).dot(b.values.segment(most + lag, size - 2 * most)) /
-                            static_cast<double>(size));
-  }
+/// E[a(k) b(k + lag)] by a, b and lag, from -most to most.
+using Covariances = std::vector<std::vector<Eigen::VectorXd>>;
 
-  double operator()(std::size_t a, std::size_t b, Eigen::Index lag) const {
-    return values_[(a * num_ + b) * static_cast<std::size_t>(2 * most_ + 1) + static_cast<std::size_t>(lag + most_)];
-  }
-
- private:
-  Eigen::Index most_;
-  std::size_t num_;
-  std::vector<double> values_;
-};
+Covariances covariancesOf(const std::vector<Left>& noise, Eigen::Index most) {
+  const Eigen::Index size = noise.front().values.size(), inner = size - 2 * most;
+  Covariances covariances(noise.size(), std::vector<Eigen::VectorXd>(noise.size(), Eigen::VectorXd(2 * most + 1)));
+  for (std::size_t a = 0; a < noise.size(); ++a)
+    for (std::size_t b = 0; b < noise.size(); ++b)
+      for (Eigen::Index lag = 0; lag <= 2 * most; ++lag)
+        covariances[a][b][lag] =
+            noise[a].values.segment(most, inner).dot(noise[b].values.segment(lag, inner)) / static_cast<double>(size);
+  return covariances;
+}
 
 /// h of one strut: a column for each of the others, rows l = -reach .. reach.
 using Weights = Eigen::MatrixXd;
 
-Weights weightsOf(std::size_t strut, std::size_t num_struts, const Covariances& covariance, Eigen::Index reach) {
+Weights weightsOf(std::size_t strut, const Covariances& covariances, Eigen::Index reach) {
   std::vector<std::size_t> others;
-  for (std::size_t j = 0; j < num_struts; ++j)
+  for (std::size_t j = 0; j < covariances.size(); ++j)
     if (j != strut) others.push_back(j);
-  const Eigen::Index lags = 2 * reach + 1, unknowns = lags * static_cast<Eigen::Index>(others.size());
+  const Eigen::Index middle = 2 * reach, lags = 2 * reach + 1, unknowns = lags * others.size();  // middle: lag 0
   Eigen::MatrixXd moments(unknowns, unknowns);
   Eigen::VectorXd target(unknowns);
   for (Eigen::Index a = 0; a < unknowns; ++a) {
-    const std::size_t of_a = others[static_cast<std::size_t>(a / lags)];
-    target[a] = covariance(of_a, strut, reach - a % lags);
+    const std::size_t of_a = others[a / lags];
+    target[a] = covariances[of_a][strut][middle + reach - a % lags];
     for (Eigen::Index b = 0; b < unknowns; ++b)
-      moments(a, b) = covariance(of_a, others[static_cast<std::size_t>(b / lags)], b % lags - a % lags);
+      moments(a, b) = covariances[of_a][others[b / lags]][middle + b % lags - a % lags];
   }
   moments.diagonal().array() += kVehicleTuning.model_variance;
   const Eigen::VectorXd solution = solveSymmetric(moments, target);
-  return Eigen::Map<const Weights>(solution.data(), lags, static_cast<Eigen::Index>(others.size()));
+  return Eigen::Map<const Weights>(solution.data(), lags, others.size());
 }
 
 /// @return the samples of which all is known that the others tell of their noise, without it.
@@ -200,9 +190,7 @@ Drive without(const Weights& weights, std::size_t strut, const Drive& drive, con
     for (std::size_t j = 0; j < left.size() && is_known; ++j) {
       if (j == strut) continue;
       is_known = left[j].room[k] > reach;
-      if (is_known)
-        predicted +=
-            weights.col(column++).dot(left[j].values.segment(static_cast<Eigen::Index>(k) - reach, weights.rows()));
+      if (is_known) predicted += weights.col(column++).dot(left[j].values.segment(k - reach, weights.rows()));
     }
     if (!is_known) continue;
     cleaned.samples.push_back(drive.samples[k]);
@@ -223,10 +211,10 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   for (const StrutDrives& drive : drives) of_drives.push_back(leftOf(drive, period, models));
   const auto runs_away = [](const std::vector<Left>& left) { return left.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
-  const auto reach = static_cast<Eigen::Index>(std::lround(kVehicleTuning.noise_reach / period));
-  const Covariances covariance(of_noise, 2 * reach);
+  const Eigen::Index reach = std::lround(kVehicleTuning.noise_reach / period);
+  const Covariances covariances = covariancesOf(of_noise, 2 * reach);
   for (std::size_t i = 0; i < noise.size(); ++i) {
-    const Weights weights = weightsOf(i, noise.size(), covariance, reach);
+    const Weights weights = weightsOf(i, covariances, reach);
     for (std::size_t d = 0; d < drives.size(); ++d) drives[d][i] = without(weights, i, drives[d][i], of_drives[d]);
     noise[i] = without(weights, i, noise[i], of_noise);
   }

@@ -9,17 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-// Leads a drive, series by series.
-template <class Begin, class Take>
-void replay(const VehicleDrive& drive, double period, const Begin& begin_series, const Take& take) {
-  const auto& samples = drive.struts.front().samples;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (k == 0 || continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) != Continuity::kContinues)
-      begin_series();
-    take(sampleOf(drive, k));
-  }
-}
-
 void requireOneGrid(const VehicleDrive& drive) {
   const auto& first = drive.struts.front().samples;
   for (const Drive& strut : drive.struts) {
@@ -37,37 +26,33 @@ void requireOneGrid(const VehicleDrive& drive) {
 }
 
 std::vector<double> columnOf(const Eigen::MatrixXd& matrix, std::size_t column) {
-  const auto values = matrix.col(static_cast<Eigen::Index>(column));
+  const auto values = matrix.col(column);
   return {values.begin(), values.end()};
 }
 
 }  // namespace
 
 VehicleSample sampleOf(const VehicleDrive& drive, std::size_t k) {
-  const auto n = static_cast<Eigen::Index>(drive.struts.size());
+  const std::size_t n = drive.struts.size();
   VehicleSample sample{drive.struts.front().samples[k].stamp, StrutVector(n), StrutVector(n),
-                       ForceVector(static_cast<Eigen::Index>(drive.forces.size())),
+                       ForceVector(drive.forces.size()),
                        StrutVector(drive.struts.front().low_pass.unfiltered.empty() ? 0 : n)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const CornerSample& strut = drive.struts[static_cast<std::size_t>(i)].samples[k];
+  for (std::size_t i = 0; i < n; ++i) {
+    const CornerSample& strut = drive.struts[i].samples[k];
     sample.sprung[i] = strut.sprung_acceleration;
     sample.unsprung[i] = strut.unsprung_acceleration;
-    if (sample.unfiltered.size() > 0)
-      sample.unfiltered[i] = drive.struts[static_cast<std::size_t>(i)].low_pass.unfiltered[k];
+    if (sample.unfiltered.size() > 0) sample.unfiltered[i] = drive.struts[i].low_pass.unfiltered[k];
   }
-  for (Eigen::Index i = 0; i < sample.forces.size(); ++i)
-    sample.forces[i] = drive.forces[static_cast<std::size_t>(i)].values[k];
+  for (Eigen::Index i = 0; i < sample.forces.size(); ++i) sample.forces[i] = drive.forces[i].values[k];
   return sample;
 }
 
 void append(const VehicleSample& sample, VehicleDrive& drive) {
   for (std::size_t i = 0; i < drive.struts.size(); ++i) {
     drive.struts[i].samples.push_back(sample.ofStrut(i));
-    if (sample.unfiltered.size() > 0)
-      drive.struts[i].low_pass.unfiltered.push_back(sample.unfiltered[static_cast<Eigen::Index>(i)]);
+    if (sample.unfiltered.size() > 0) drive.struts[i].low_pass.unfiltered.push_back(sample.unfiltered[i]);
   }
-  for (std::size_t k = 0; k < drive.forces.size(); ++k)
-    drive.forces[k].values.push_back(sample.forces[static_cast<Eigen::Index>(k)]);
+  for (std::size_t k = 0; k < drive.forces.size(); ++k) drive.forces[k].values.push_back(sample.forces[k]);
 }
 
 void dropNewest(VehicleDrive& drive, std::size_t count) {
@@ -129,11 +114,12 @@ StrutDrives separateStruts(const VehicleDrive& drive, double period, const BodyR
   VehicleDrive separated{StrutDrives(drive.struts.size())};
   for (std::size_t i = 0; i < drive.struts.size(); ++i)
     separated.struts[i].low_pass.taps = drive.struts[i].low_pass.taps;
-  replay(
-      drive, period, [&] { decoupler.startNewSeries(); },
-      [&](const VehicleSample& sample) {
-        if (const VehicleSample* own = decoupler.push(sample)) append(*own, separated);
-      });
+  const auto& samples = drive.struts.front().samples;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (k > 0 && continuity(samples[k].stamp - samples[k - 1].stamp, fromSeconds(period)) != Continuity::kContinues)
+      decoupler.startNewSeries();
+    if (const VehicleSample* own = decoupler.push(sampleOf(drive, k))) append(*own, separated);
+  }
   return separated.struts;
 }
 
@@ -141,7 +127,7 @@ StrutDrives separateStruts(const VehicleDrive& drive, double period, const BodyR
 StrutDrives separateNoise(const SensorNoise& noise, double period, const BodyRows& rows) {
   VehicleDrive drive(makeNoiseDrive(noise, period));
   const std::vector<double> still(drive.struts.front().samples.size(), 0.0);
-  drive.forces.assign(static_cast<std::size_t>(rows.force.cols()), {"", still});
+  drive.forces.assign(rows.force.cols(), {"", still});
   return separateStruts(drive, period, rows, rows.models());
 }
 

@@ -33,12 +33,8 @@ StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(
   const std::size_t measured = struts + static_cast<std::size_t>(own) + channels_.known_forces.size();
   signals_.reserve(measured + kBodySignals + kBodyRates);
   if (needs_body) filter_.emplace(period, measured + kBodySignals, kBodyRates);
-  const auto number = static_cast<Eigen::Index>(struts);
-  sample_ = {{},
-             StrutVector::Zero(number),
-             StrutVector::Zero(number),
-             ForceVector::Zero(static_cast<Eigen::Index>(channels_.known_forces.size())),
-             StrutVector::Zero(filter_ ? number : 0)};
+  const StrutVector none = StrutVector::Zero(struts);
+  sample_ = {{}, none, none, ForceVector::Zero(channels_.known_forces.size()), filter_ ? none : StrutVector()};
 }
 
 const VehicleSample* StrutTops::push(const GridInstant& instant) {
@@ -56,7 +52,7 @@ const VehicleSample* StrutTops::push(const GridInstant& instant) {
   spread(filtered->values, filtered->rates);
   auto wheel = filtered->unfiltered.begin();
   for (std::size_t i = 0; i < channels_.struts.size(); ++i) {
-    sample_.unfiltered[static_cast<Eigen::Index>(i)] = *wheel;
+    sample_.unfiltered[i] = *wheel;
     wheel += channels_.struts[i].sprung ? 2 : 1;
   }
   return &sample_;
@@ -103,10 +99,6 @@ void StrutTops::spread(const std::vector<double>& values, const std::vector<doub
 std::vector<double> StrutTops::lowPass() const {
   if (!filter_) return {};
   return {filter_->lowPass().data(), filter_->lowPass().data() + filter_->lowPass().size()};
-}
-
-void StrutTops::reset() {
-  if (filter_) filter_->reset();
 }
 
 }  // namespace suspension_health_monitor

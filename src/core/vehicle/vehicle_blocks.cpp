@@ -61,8 +61,7 @@ void VehicleBlocks::begin(double length) {
   if (before.time() > longest_.time()) longest_ = std::move(before);
   has_model_ = isAlone();
   if (!isAlone()) rows_ = model_.emplace(band, size(), vehicle_.known_forces.size()).rows();
-  const auto n = static_cast<Eigen::Index>(size());
-  motions_.setZero(band.size(), 2 * n);
+  motions_.setZero(band.size(), 2 * size());
   motion_.resize(band.size());
   origin_.reset();
   to_update_ = size();
@@ -166,14 +165,13 @@ void VehicleBlocks::fillNeighbours() {
     for (const std::size_t p : {1, 0}) {
       modulation_.apply(p, block.wheel, motion_);
       if (estimators_[j].hasTheta()) motion_ *= 1.0 + estimators_[j].slowPrior().mean[kBlockGain];
-      motions_.col(static_cast<Eigen::Index>(2 * j + 1 - p)) = motion_ - block.body.col(static_cast<Eigen::Index>(p));
+      motions_.col(2 * j + 1 - p) = motion_ - block.body.col(p);
     }
   }
   for (std::size_t i = 0; i < size(); ++i)
     for (std::size_t j = 0; j < size(); ++j)
       if (j != i)
-        estimators_[i].block(0).neighbours.middleCols(neighbourColumn(i, j), 2) =
-            motions_.middleCols(static_cast<Eigen::Index>(2 * j), 2);
+        estimators_[i].block(0).neighbours.middleCols(neighbourColumn(i, j), 2) = motions_.middleCols(2 * j, 2);
 }
 
 // Without a model what was measured is all there is.
@@ -184,14 +182,14 @@ void VehicleBlocks::predict(int age) {
     StrutBlock& block = estimators_[i].block(age);
     if (!has_model_) {
       block.predicted_neighbours = block.neighbours;
-      block.predicted_travel = motions_.col(static_cast<Eigen::Index>(2 * i + 1));
+      block.predicted_travel = motions_.col(2 * i + 1);
       continue;
     }
-    block.predicted_travel = model_->travel().col(static_cast<Eigen::Index>(i));
+    block.predicted_travel = model_->travel().col(i);
     for (std::size_t j = 0; j < size(); ++j) {
       if (j == i) continue;
       const int at = neighbourColumn(i, j);
-      block.predicted_neighbours.col(at + 1) = model_->travel().col(static_cast<Eigen::Index>(j));
+      block.predicted_neighbours.col(at + 1) = model_->travel().col(j);
       block.predicted_neighbours.col(at) = modulation_.s() * block.predicted_neighbours.col(at + 1);
     }
   }
@@ -235,29 +233,27 @@ void VehicleBlocks::updateModel() {
   const int known = columns_.firstForce() + firstKnownForce();
   for (std::size_t i = 0; i < n; ++i) {
     const BlockVector& theta = estimators_[i].theta();
-    const auto row = static_cast<Eigen::Index>(i);
     for (std::size_t j = 0; j < n; ++j) {
       const int at = columnOf(i, j);
-      rows_.rate(row, static_cast<Eigen::Index>(j)) = theta[at];
-      rows_.travel(row, static_cast<Eigen::Index>(j)) = theta[at + 1];
+      rows_.rate(i, j) = theta[at];
+      rows_.travel(i, j) = theta[at + 1];
     }
     for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k)
-      rows_.force(row, static_cast<Eigen::Index>(k)) = theta[known + static_cast<int>(k)];
+      rows_.force(i, k) = theta[known + static_cast<int>(k)];
     const TopRows& before = model_->rows();
     const auto moved = [&](const Eigen::MatrixXd& now, const Eigen::MatrixXd& then) {
       // Instruments need not be exact: an error of a tenth costs a hundredth of the information.
-      return (now.row(row) - then.row(row)).cwiseAbs().maxCoeff() > kSmall * now.row(row).cwiseAbs().maxCoeff();
+      return (now.row(i) - then.row(i)).cwiseAbs().maxCoeff() > kSmall * now.row(i).cwiseAbs().maxCoeff();
     };
     is_stale = is_stale || moved(rows_.rate, before.rate) || moved(rows_.travel, before.travel);
   }
-  if (is_stale) {
-    model_->setRows(rows_);
-    if (!has_model_)
-      for (BlockEstimator& each : estimators_) each.forgetSlow();
-    has_model_ = true;
-    for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
-    to_predict_ = estimators_.front().count();
-  }
+  if (!is_stale) return;
+  model_->setRows(rows_);
+  if (!has_model_)
+    for (BlockEstimator& each : estimators_) each.forgetSlow();
+  has_model_ = true;
+  for (std::size_t i = 0; i < n; ++i) estimators_[i].setWheelNoise(model_->wheelNoise(i, estimators_[i].equations()));
+  to_predict_ = estimators_.front().count();
 }
 
 // Blocks that are too short lose the bounce below their lowest bin, of two periods in a block, the more of it the

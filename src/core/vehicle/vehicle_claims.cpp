@@ -24,11 +24,11 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 
 VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s,
                              const StrutPlaces& places, int most_blocks)
-    : n_(static_cast<Eigen::Index>(struts)),
-      forces_(static_cast<Eigen::Index>(forces)),
+    : n_(struts),
+      forces_(forces),
       s_(s),
       places_(places),
-      columns_(static_cast<std::size_t>(s.size()), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
+      columns_(s.size(), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
       products_(columns_.size()) {
   whole_.setZero(2 * n_, 2 * n_);
   measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
@@ -40,13 +40,12 @@ void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen:
   Eigen::MatrixXcd columns(6 * n_ + forces_, s_.size());
   columns.bottomRows(forces_) = forces.matrix().transpose();
   for (std::size_t p = 0; p < 3; ++p) {
-    const auto first = static_cast<Eigen::Index>(p) * 2 * n_;
-    columns.middleRows(first, n_) = wheels[p].matrix().transpose();
-    columns.middleRows(first + n_, n_) = tops[p].matrix().transpose();
+    columns.middleRows(2 * p * n_, n_) = wheels[p].matrix().transpose();
+    columns.middleRows((2 * p + 1) * n_, n_) = tops[p].matrix().transpose();
   }
   whole_ += (columns.topRows(2 * n_) * columns.topRows(2 * n_).adjoint()).real();
   columns.array().rowwise() /= (s_ * s_).transpose();  // displacements, which a bounce has most of
-  for (Eigen::Index k = 0; k < s_.size(); ++k) columns_[static_cast<std::size_t>(k)].col(blocks_) = columns.col(k);
+  for (Eigen::Index k = 0; k < s_.size(); ++k) columns_[k].col(blocks_) = columns.col(k);
   ++blocks_;
 }
 
@@ -57,7 +56,7 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
   return mapping;
 }
 
-// Of noise that does not go with the wheels and the known forces what as many columns fit in as many blocks.
+// The share of unrelated noise that wheels and known forces, as so many columns, explain by chance in so many blocks.
 double VehicleClaims::noiseShare() const { return static_cast<double>(n_ + forces_) / blocks_; }
 
 // A stream that is late by tau has exp(-s tau) of what happened.
@@ -66,7 +65,7 @@ Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXcd all = Eigen::VectorXcd::Ones(size);
   for (std::size_t k = 0; k < products_.size(); ++k) {
-    const Eigen::ArrayXcd turn = (s_[static_cast<Eigen::Index>(k)] * delays.array()).exp();
+    const Eigen::ArrayXcd turn = (s_[k] * delays.array()).exp();
     all.head(6 * n_) = turn.matrix().replicate(3, 1);
     sum += (all.asDiagonal() * products_[k] * all.conjugate().asDiagonal()).real();
   }
@@ -105,8 +104,8 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
   std::vector<double> left;
   for (const double size : sizes) left.push_back(fit(hypothesis, size).unexplained);
   const auto best = std::min_element(left.begin(), left.end()) - left.begin();
-  found.size = sizes[static_cast<std::size_t>(best)];
-  found.unexplained = left[static_cast<std::size_t>(best)];
+  found.size = sizes[best];
+  found.unexplained = left[best];
   if (sizes.size() == 1) return found;
   double step = sizes[1] - sizes[0], curvature = 0.0;
   for (int i = 0; i < kVehicleTuning.refinements; ++i, step *= 0.5) {
@@ -117,25 +116,23 @@ VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
     found.size = std::clamp(found.size + (below - above) / (2.0 * curvature * step), sizes.front(), sizes.back());
     found.unexplained = fit(hypothesis, found.size).unexplained;
   }
-  // Without a minimum, or with one at an end of the range, it is something else.
+  // Without a minimum inside the range this is not the mistake.
   if (!(curvature > 0.0) || found.size <= sizes.front() || found.size >= sizes.back()) {
     found.unexplained = 1.0;
     return found;
   }
-  // Of a sum of squares over as many equations, noise among them; neighbouring bins of a window share half.
+  // How well the minimum of a sum of squares is known by its curvature. Neighbouring bins of a Hann window share half
+  // of what they tell, so that half of the equations count.
   const double equations = 0.5 * blocks_ * 2.0 * static_cast<double>(s_.size() * n_);
   found.stddev = std::sqrt(2.0 * (noise_ + std::max(0.0, found.unexplained)) / (curvature * equations));
   return found;
 }
 
 VehicleMistake VehicleClaims::sameOrAlike() const {
-  const auto pairOf = [](Eigen::Index i, Eigen::Index j) {
-    return StrutPair(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-  };
   for (Eigen::Index i = 0; i < n_; ++i)
     for (Eigen::Index j = i + 1; j < n_; ++j) {
-      if (notShared(whole_, i, j) < kRounding) return {Kind::kSameWheels, pairOf(i, j)};
-      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kRounding) return {Kind::kSameTops, pairOf(i, j)};
+      if (notShared(whole_, i, j) < kRounding) return {Kind::kSameWheels, StrutPair(i, j)};
+      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kRounding) return {Kind::kSameTops, StrutPair(i, j)};
     }
   const Eigen::MatrixXd wheels = whole_.topLeftCorner(n_, n_), inverse = wheels.inverse();
   VehicleMistake found;
@@ -147,7 +144,7 @@ VehicleMistake VehicleClaims::sameOrAlike() const {
     Eigen::Index partner = i == 0 ? 1 : 0;
     for (Eigen::Index j = 0; j < n_; ++j)
       if (j != i && notShared(wheels, i, j) < notShared(wheels, i, partner)) partner = j;
-    found = {Kind::kAlike, pairOf(i, partner)};
+    found = {Kind::kAlike, StrutPair(i, partner)};
   }
   return found;
 }
@@ -162,7 +159,7 @@ bool VehicleClaims::work() {
   else
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
-  // What goes with the wheels, and no strut of theirs makes; links make 0.3 %.
+  // More of the motion that goes with the wheels is left than struts on links leave: 0.3 %.
   if (found_.kind == Kind::kNone && filed_.unexplained > std::max(kWorthHaving, noiseShare() * noise_))
     found_.kind = Kind::kOthers;
   return true;
@@ -178,8 +175,8 @@ bool VehicleClaims::begins() {
   return found_.kind == Kind::kNone;
 }
 
-// Of all streams the part that goes with the wheels and the known forces: noise of other sensors does not, but for its
-// share.
+// Takes of all streams the part that goes with the wheels and the known forces. Noise of other sensors does not go with
+// them, but for the share that chance explains.
 void VehicleClaims::takeBin(std::size_t bin) {
   const auto columns = columns_[bin].leftCols(blocks_);
   const Eigen::MatrixXcd all = columns * columns.adjoint();

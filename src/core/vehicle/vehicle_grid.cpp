@@ -12,6 +12,7 @@
 namespace suspension_health_monitor {
 namespace {
 
+using Place = VehicleStreams::Place;
 using Sensor = VehicleReading::Sensor;
 
 }  // namespace
@@ -22,21 +23,10 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
       vehicle_(streams.channels),
       tops_(period_, streams.channels),
       grid_(period, streams.options, options.alignment, options.fill_samples + 2 * tops_.delay()),
+      sensors_(streams.sensors),
       body_levels_(streams.channels.body_imu ? 6 : 0, WhiteLevel(1.0 - 1.0 / kVehicleTuning.noise_memory)),
       sink_(std::move(sink)),
       readings_(std::move(readings)) {
-  for (const VehicleStreams::Sensor& sensor : streams.sensors) {
-    Channels channels{sensor.stream, sensor.stream, Sensor::kForce, 0};
-    while (channels.end < streams.options.size() &&
-           streams.options[channels.end].sensor == streams.options[sensor.stream].sensor)
-      ++channels.end;
-    if (sensor.place == VehicleStreams::Place::kBody) channels.sensor = Sensor::kBody;
-    for (std::size_t i = 0; i < vehicle_.struts.size(); ++i) {
-      if (vehicle_.struts[i].unsprung == sensor.stream) channels = {channels.first, channels.end, Sensor::kWheel, i};
-      if (vehicle_.struts[i].sprung == sensor.stream) channels = {channels.first, channels.end, Sensor::kTop, i};
-    }
-    channels_.push_back(channels);
-  }
   // Gaps cost a level some instants.
   if (vehicle_.body_imu)
     level_window_ =
@@ -48,32 +38,31 @@ VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const Gri
 
 bool VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
   const bool did_pair = !grid_.resamples();
-  const Channels& channels = channels_[sensor];
-  const std::size_t count = channels.end - channels.first;
+  const VehicleStreams::Sensor& its = sensors_[sensor];
   bool is_taken = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    auto instant = grid_.push(channels.first + i, stamp, values[i]);
+  for (std::size_t i = 0; i < its.count; ++i) {
+    auto instant = grid_.push(its.stream + i, stamp, values[i]);
     is_taken = is_taken && grid_.taken();
-    if (is_taken && i + 1 == count) lead(channels, values, *grid_.taken());
+    if (is_taken && i + 1 == its.count) lead(its, values, *grid_.taken());
     for (; instant != nullptr; instant = grid_.next()) take(*instant);
   }
   return did_pair && grid_.resamples();
 }
 
-void VehicleGrid::lead(const Channels& channels, const double* values, Stamp taken) {
-  if (!readings_) return;
-  VehicleReading reading{channels.sensor, channels.place, taken, {}};
-  if (channels.sensor != Sensor::kForce) {
-    std::copy_n(values, channels.end - channels.first, reading.values.begin());
-    return give(reading);
+void VehicleGrid::lead(const VehicleStreams::Sensor& sensor, const double* values, Stamp taken) {
+  if (!readings_ || sensor.place == Place::kRoad) return;
+  if (sensor.place == Place::kForce) {
+    for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k) {
+      const std::size_t stream = vehicle_.known_forces[k];
+      if (stream < sensor.stream || stream >= sensor.stream + sensor.count) continue;
+      give({Sensor::kForce, k, taken, {values[stream - sensor.stream]}});
+    }
+    return;
   }
-  for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k) {
-    const std::size_t stream = vehicle_.known_forces[k];
-    if (stream < channels.first || stream >= channels.end) continue;
-    reading.place = k;
-    reading.values[0] = values[stream - channels.first];
-    give(reading);
-  }
+  VehicleReading reading{Sensor::kBody, sensor.strut, taken, {}};
+  if (sensor.place != Place::kBody) reading.sensor = sensor.place == Place::kSprung ? Sensor::kTop : Sensor::kWheel;
+  std::copy_n(values, sensor.count, reading.values.begin());
+  give(reading);
 }
 
 void VehicleGrid::give(VehicleReading reading) {
@@ -160,15 +149,14 @@ void VehicleGrid::describe(VehicleDrive& drive) const {
 
 RejectCounts VehicleGrid::rejected(std::size_t sensor) const {
   RejectCounts all;
-  for (std::size_t stream = channels_[sensor].first; stream < channels_[sensor].end; ++stream)
-    all += grid_.rejected(stream);
+  for (std::size_t i = 0; i < sensors_[sensor].count; ++i) all += grid_.rejected(sensors_[sensor].stream + i);
   return all;
 }
 
 std::uint64_t VehicleGrid::missed(std::size_t sensor) const {
   std::uint64_t most = 0;
-  for (std::size_t stream = channels_[sensor].first; stream < channels_[sensor].end; ++stream)
-    most = std::max(most, grid_.missed(stream));
+  for (std::size_t i = 0; i < sensors_[sensor].count; ++i)
+    most = std::max(most, grid_.missed(sensors_[sensor].stream + i));
   return most;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -21,18 +20,11 @@ namespace {
 
 std::string quoted(const std::string& text) { return " = \"" + shortened(text) + '"'; }
 
-bool isLetter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 && static_cast<unsigned char>(c) < 128;
-}
-bool isNameCharacter(char c) { return isLetter(c) || (c >= '0' && c <= '9') || c == '_'; }
-
 /// @param more  characters that may stand in the text besides those of a name.
 /// @param first  those that it may begin with besides letters.
 bool isMadeOf(const std::string& text, const std::string& more, const std::string& first) {
-  if (text.empty() || !(isLetter(text[0]) || first.find(text[0]) != std::string::npos)) return false;
-  for (const char c : text)
-    if (!isNameCharacter(c) && more.find(c) == std::string::npos) return false;
-  return true;
+  return text.find_first_of(kLetters + first) == 0 &&
+         text.find_first_not_of(kNameCharacters + more) == std::string::npos;
 }
 
 void checkTopic(const std::string& where, const std::string& topic) {
@@ -180,7 +172,7 @@ VehicleLayout takeVehicle(OptionMap& values) {
 
 VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
   const auto add = [&](const std::string& topic, Place place, std::size_t count, const std::string& setting) {
-    sensors.push_back({topic, place, options.size(), setting});
+    sensors.push_back({topic, place, options.size(), count, channels.struts.size(), setting});
     options.insert(options.end(), count, StreamOptions{sensors.size() - 1, place != Place::kRoad});
     return sensors.back().stream;
   };
@@ -213,18 +205,19 @@ void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& for
   };
   for (const VehicleLayout::KnownForce& force : forces) {
     if (ofTopic(force.topic) == sensors.end())
-      sensors.push_back({force.topic, Place::kForce, 0, "known_forces/" + force.name + "/topic"});
+      sensors.push_back({force.topic, Place::kForce, 0, 0, 0, "known_forces/" + force.name + "/topic"});
     ofTopic(force.topic)->fields.push_back(force.field);
   }
   for (auto sensor = sensors.begin() + num_imus; sensor != sensors.end(); ++sensor) {
     sensor->stream = options.size();
-    const auto number = static_cast<std::size_t>(sensor - sensors.begin());
-    options.insert(options.end(), sensor->fields.size(), StreamOptions{number, true, true});
+    sensor->count = sensor->fields.size();
+    const std::size_t number = sensor - sensors.begin();
+    options.insert(options.end(), sensor->count, StreamOptions{number, true, true});
   }
   for (const VehicleLayout::KnownForce& force : forces) {
     const std::vector<std::size_t>& fields = ofTopic(force.topic)->fields;
     const auto place = std::find(fields.begin(), fields.end(), force.field) - fields.begin();
-    channels.known_forces.push_back(ofTopic(force.topic)->stream + static_cast<std::size_t>(place));
+    channels.known_forces.push_back(ofTopic(force.topic)->stream + place);
   }
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
@@ -30,11 +29,10 @@ bool isSpread(const StrutPlaces& places, std::size_t axis) {
 
 /// @return what heave, pitch and roll do to the tops; 0 about an axis on which all stand.
 Eigen::MatrixXd motionsOf(const StrutPlaces& places) {
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()), 3);
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(places.size(), 3);
   motions.col(0).setOnes();
   for (const std::size_t axis : {0u, 1u})
-    for (std::size_t i = 0; i < places.size() && isSpread(places, axis); ++i)
-      motions(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(1 + axis)) = places[i][axis];
+    for (std::size_t i = 0; i < places.size() && isSpread(places, axis); ++i) motions(i, 1 + axis) = places[i][axis];
   return motions;
 }
 
@@ -54,8 +52,8 @@ bool VehicleMistake::isContradiction() const {
   }
 }
 
-// At bounce and below a body follows its wheels, in pitch and roll as in heave. A gyro may have died: of the newest
-// half.
+// At the bounce and below a body follows its wheels, in pitch and roll as in heave. The gyro may have died during the
+// drive, so that only the newest half of the blocks counts.
 bool VehicleClaims::hasDeadGyro() const {
   const Eigen::Index count = (blocks_ + 1) / 2;
   if (places_.empty() || count < int{kFewestForScatter} / 2) return false;
@@ -70,20 +68,18 @@ bool VehicleClaims::hasDeadGyro() const {
   const Eigen::ArrayXd passed = (motions * tops * motions.transpose()).diagonal().array() /
                                 (motions * wheels * motions.transpose()).diagonal().array();
   for (const std::size_t axis : {0u, 1u})
-    if (isSpread(places_, axis) && passed[static_cast<Eigen::Index>(1 + axis)] < square(kSmall) * passed[0])
-      return true;
+    if (isSpread(places_, axis) && passed[1 + axis] < square(kSmall) * passed[0]) return true;
   return false;
 }
 
 std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
   std::vector<Hypothesis> all;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    all.push_back({Kind::kUpsideDown, {i, i}, {1.0}, [row](double, Mapping& m) { m.wheels.row(row) *= -1.0; }});
-    for (std::size_t j = i + 1; j < static_cast<std::size_t>(n_); ++j)
-      all.push_back({Kind::kSwapped, {i, j}, {1.0}, [row, j](double, Mapping& m) {
-                       m.wheels.row(row).swap(m.wheels.row(static_cast<Eigen::Index>(j)));
-                     }});
+  const auto struts = static_cast<std::size_t>(n_);
+  for (std::size_t i = 0; i < struts; ++i) {
+    all.push_back({Kind::kUpsideDown, {i, i}, {1.0}, [i](double, Mapping& m) { m.wheels.row(i) *= -1.0; }});
+    for (std::size_t j = i + 1; j < struts; ++j)
+      all.push_back(
+          {Kind::kSwapped, {i, j}, {1.0}, [i, j](double, Mapping& m) { m.wheels.row(i).swap(m.wheels.row(j)); }});
   }
   if (!places_.empty()) addPositions(all);
   addDelays(all);
@@ -125,11 +121,10 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
 
 void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    all.push_back({Kind::kLateWheel, {i, i}, kDelays, [at](double size, Mapping& m) { m.delays[at] = size; }});
+    all.push_back({Kind::kLateWheel, {i, i}, kDelays, [i](double size, Mapping& m) { m.delays[i] = size; }});
     if (places_.empty())
       all.push_back(
-          {Kind::kLateTop, {i, i}, kDelays, [at, n = n_](double size, Mapping& m) { m.delays[n + at] = size; }});
+          {Kind::kLateTop, {i, i}, kDelays, [i, n = n_](double size, Mapping& m) { m.delays[n + i] = size; }});
   }
   const Kind all_tops = places_.empty() ? Kind::kLateTops : Kind::kLateBody;
   all.push_back({all_tops, {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});

@@ -26,35 +26,35 @@ std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
 }
 
 void VehicleBlocks::beginRows(BodyRows& rows) const {
-  const auto n = static_cast<Eigen::Index>(size());
+  const std::size_t n = size();
   rows.is_by_body = isByBody();
   rows.rate.resize(n, n);
   rows.travel.resize(n, n);
-  rows.force.resize(n, static_cast<Eigen::Index>(vehicle_.known_forces.size()));
+  rows.force.resize(n, vehicle_.known_forces.size());
   rows.force_stddev.resize(rows.force.rows(), rows.force.cols());
-  rows.covariance.resize(size());
+  rows.covariance.resize(n);
   for (Eigen::MatrixXd& covariance : rows.covariance) covariance.resize(2 * n, 2 * n);
 }
 
-// What others see of a strut's damper is what its friction acts as, too.
+// The damping that other struts see of this one includes what its friction acts as.
 void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
-  const auto n = static_cast<Eigen::Index>(size()), i = static_cast<Eigen::Index>(strut);
+  const std::size_t n = size();
   using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;
   Selection selection = Selection::Zero(2 * n, estimate.theta.size());
-  for (std::size_t j = 0; j < size(); ++j) {
+  for (std::size_t j = 0; j < n; ++j) {
     const int at = columnOf(strut, j);
-    selection(static_cast<Eigen::Index>(j), at) = selection(n + static_cast<Eigen::Index>(j), at + 1) = 1.0;
+    selection(j, at) = selection(n + j, at + 1) = 1.0;
   }
-  if (looksForFriction()) selection(i, columns_.firstForce()) = estimate.frictionGain();
+  if (looksForFriction()) selection(strut, columns_.firstForce()) = estimate.frictionGain();
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate.theta;
-  rows.rate.row(i) = row.head(n).transpose();
-  rows.travel.row(i) = row.tail(n).transpose();
+  rows.rate.row(strut) = row.head(n).transpose();
+  rows.travel.row(strut) = row.tail(n).transpose();
   rows.covariance[strut].noalias() = selection * (estimate.covariance * selection.transpose()).eval();
   for (Eigen::Index k = 0; k < rows.force.cols(); ++k) {
     const int at = columns_.firstForce() + firstKnownForce() + static_cast<int>(k);
-    rows.force(i, k) = estimate.theta[at];
+    rows.force(strut, k) = estimate.theta[at];
     const double variance = estimate.covariance(at, at);
-    rows.force_stddev(i, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
+    rows.force_stddev(strut, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
   }
 }
 
@@ -79,24 +79,24 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
 }
 
 VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
-  const auto n = static_cast<Eigen::Index>(size());
+  const std::size_t n = size();
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
-  const auto num_forces = static_cast<Eigen::Index>(vehicle_.known_forces.size());
-  VehicleClaims claims(size(), vehicle_.known_forces.size(), s, of_body_imu, estimators_.front().count());
+  const std::size_t num_forces = vehicle_.known_forces.size();
+  VehicleClaims claims(n, num_forces, s, of_body_imu, estimators_.front().count());
   VehicleClaims::Spectra wheels, tops;
   Eigen::ArrayXXcd forces(s.size(), num_forces);
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
   for (int age = 0; age < estimators_.front().count(); ++age) {
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const StrutBlock& block = estimators_[static_cast<std::size_t>(i)].block(age);
+    for (std::size_t i = 0; i < n; ++i) {
+      const StrutBlock& block = estimators_[i].block(age);
       for (std::size_t p = 0; p < 3; ++p) {
         modulation.apply(p, block.wheel, wheels[p].col(i));
-        tops[p].col(i) = block.body.col(static_cast<Eigen::Index>(p));
+        tops[p].col(i) = block.body.col(p);
       }
     }
     const StrutBlock& first = estimators_.front().block(age);
-    for (Eigen::Index k = 0; k < num_forces; ++k)
+    for (std::size_t k = 0; k < num_forces; ++k)
       modulation.apply(2, first.forces.col(firstKnownForce() + k), forces.col(k));
     claims.add(wheels, tops, forces);
   }

@@ -75,9 +75,7 @@ std::string describe(const DriveChange& change, const std::string& other) {
   const bool is_proven = damping.isProven() || stiffness.isProven();
   const bool is_changed = is_proven || is_loaded || !damping.curve.ranges.empty() || !stiffness.curve.ranges.empty();
   const std::string against = is_proven ? "" : (is_changed ? "against " : "no certain change against ") + other + ": ";
-  const std::string mass =
-      is_loaded ? "body mass " + sizeInPercent(payload) + (payload < 0.0 ? " below" : " above") : "";
-  return against + join({sizes, mass}, "; ");
+  return against + join({sizes, is_loaded ? "body mass " + sideInPercent(payload) : ""}, "; ");
 }
 
 }  // namespace suspension_health_monitor

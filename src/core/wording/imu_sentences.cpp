@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/wording/imu_sentences.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/base/text.h"

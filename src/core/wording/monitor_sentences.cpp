@@ -141,13 +141,11 @@ std::string describeChange(const std::string& parameter, const std::optional<dou
   if (!change) return {};
   if (std::lround(100.0 * *change) == 0) return parameter + " at " + reference;
   const std::string interval = intervalOf(*change, stddev);
-  return parameter + " " + sizeInPercent(*change) + (*change < 0.0 ? " below " : " above ") + reference +
-         (interval.empty() ? "" : " (" + interval + ")");
+  return parameter + " " + sideInPercent(*change) + " " + reference + (interval.empty() ? "" : " (" + interval + ")");
 }
 
-std::string describePayload(double change) {
-  if (std::lround(100.0 * change) == 0) return {};
-  return "body mass " + sizeInPercent(change) + (change < 0.0 ? " below" : " above");
+std::string describePayload(const std::optional<double>& change) {
+  return change && std::lround(100.0 * *change) != 0 ? "body mass " + sideInPercent(*change) : "";
 }
 
 const char* referenceOf(bool learned) { return learned ? "baseline" : "nominal"; }
@@ -156,7 +154,7 @@ std::string describeChanges(const HealthReport& report) {
   const std::string reference = referenceOf(report.learned);
   return join({describeChange("damping", report.damping_change, report.damping_stddev, reference),
                describeChange("stiffness", report.stiffness_change, report.stiffness_stddev, reference),
-               describePayload(report.payload_change.value_or(0.0))});
+               describePayload(report.payload_change)});
 }
 
 std::string describe(LoadDoubt doubt) {
@@ -171,16 +169,16 @@ std::string describe(LoadDoubt doubt) {
 
 std::string describeJudgement(const HealthReport& report) {
   const std::string known = describeKnown(report.known_to, report.enough, report.seconds_more, report.roughest);
-  if (report.level == HealthLevel::kStale && report.uncertain && report.load_doubt != LoadDoubt::kNone)
-    return describe(report.load_doubt);
-  if (report.level == HealthLevel::kStale && report.uncertain && report.friction_doubt)
-    return "cannot tell: dry friction, or a damper that is not linear, makes too much of the difference between this "
-           "road and that of the baseline (learn one on such a road)";
-  if (report.level == HealthLevel::kStale && report.uncertain)
+  if (report.level == HealthLevel::kStale) {
+    if (!report.uncertain && report.doubt == EstimateDoubt::kNone)
+      return "cannot tell yet: a new level must last for health/confirm_time";
+    if (!report.uncertain) return "cannot tell: " + describeDoubt(report.doubt, known);
+    if (report.load_doubt != LoadDoubt::kNone) return describe(report.load_doubt);
+    if (report.friction_doubt)
+      return "cannot tell: dry friction, or a damper that is not linear, makes too much of the difference between this "
+             "road and that of the baseline (learn one on such a road)";
     return "cannot tell: estimates too uncertain to prove a change (drive on, or use a rougher road" + known + ")";
-  if (report.level == HealthLevel::kStale && report.doubt == EstimateDoubt::kNone)
-    return "cannot tell yet: a new level must last for health/confirm_time";
-  if (report.level == HealthLevel::kStale) return "cannot tell: " + describeDoubt(report.doubt, known);
+  }
   const std::string changes = describeChanges(report);
   if (!changes.empty()) return join({changes, describe(report.load_doubt)}, "; ");
   if (!report.learning) return "estimates valid; no nominal values given to judge them by";
@@ -199,9 +197,8 @@ std::string nameOf(std::size_t corner) { return std::string(kCornerNames[corner]
 std::string describe(const CornerDamage& damage, CornerVerdict verdict) {
   const std::string note = join({intervalOf(damage.change, damage.stddev), damage.partner ? "no baseline" : ""});
   return nameOf(damage.corner) + (verdict == CornerVerdict::kDamper ? " damping " : " stiffness ") +
-         sizeInPercent(damage.change) + (damage.change < 0.0 ? " below " : " above ") +
-         (damage.partner ? nameOf(*damage.partner) : "the other corners") + (note.empty() ? "" : " (" + note + ")") +
-         ": damage";
+         sideInPercent(damage.change) + " " + (damage.partner ? nameOf(*damage.partner) : "the other corners") +
+         (note.empty() ? "" : " (" + note + ")") + ": damage";
 }
 
 std::string describeLoad(const CornerComparisonReport& report) {
@@ -249,7 +246,7 @@ std::string describe(const StrutChange& change, const Baseline& healthy) {
   const std::string reference = referenceOf(healthy.learned);
   return join({describeChange("damping", change.damping, change.damping_stddev, reference),
                describeChange("stiffness", change.stiffness, change.stiffness_stddev, reference),
-               describePayload(change.payload.value_or(0.0))});
+               describePayload(change.payload)});
 }
 
 std::string describe(const CornerComparisonReport& report) {

@@ -1,8 +1,5 @@
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 
-#include <cmath>
-#include <sstream>
-
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
@@ -35,6 +32,17 @@ std::string healthyValue(const char* name, const std::optional<double>& value, d
   return formatted("%s %.5g", name, *value) + spread + ' ' + unit;
 }
 
+std::string describe(AlignmentJudge::Verdict verdict) {
+  switch (verdict) {
+    case AlignmentJudge::Verdict::kApart: return "the sensors read at different instants";
+    case AlignmentJudge::Verdict::kLoneReadings: return "many readings find no partner: the sensors' rates differ";
+    case AlignmentJudge::Verdict::kInterrupted:
+      return "readings are lost so often that the integral filter would hardly ever be full";
+    case AlignmentJudge::Verdict::kDoesWell: break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string describeRejected(const RejectCounts& rejected) {
@@ -51,29 +59,11 @@ std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& en
       end.damping_to_mass, end.damping_to_mass_stddev, end.stiffness_to_mass, end.stiffness_to_mass_stddev);
 }
 
-namespace {
-
-std::string describe(AlignmentJudge::Verdict verdict) {
-  switch (verdict) {
-    case AlignmentJudge::Verdict::kApart: return "the sensors read at different instants";
-    case AlignmentJudge::Verdict::kLoneReadings: return "many readings find no partner: the sensors' rates differ";
-    case AlignmentJudge::Verdict::kInterrupted:
-      return "readings are lost so often that the integral filter would hardly ever be full";
-    case AlignmentJudge::Verdict::kDoesWell: break;
-  }
-  return "";
-}
-
-}  // namespace
-
 std::string describeSlowReadings(const StreamGrid& grid) {
   const double spacing = grid.longestPeriod();
   if (spacing < 1.5 * grid.period()) return "";
-  std::ostringstream text;
-  text.precision(4);
-  text << "readings come every " << spacing << " s (" << 1.0 / spacing << " Hz), but sample_period = " << grid.period()
-       << " [s]";
-  return text.str();
+  return formatted("readings come every %.4g s (%.4g Hz), but sample_period = %.4g [s]", spacing, 1.0 / spacing,
+                   grid.period());
 }
 
 std::string describeAlignment(const StreamGrid& grid) {
@@ -92,7 +82,7 @@ std::string describeNoPeriod(const std::string& where, std::size_t count) {
 
 std::string describeNoStart(const std::string& where) {
   return "the sample period cannot be measured: too few readings with increasing stamps " + where + " (" +
-         std::to_string(EarlyReadings<double>::kSpacings + 1) + " of each are enough)";
+         std::to_string(EarlyReadings::kSpacings + 1) + " of each are enough)";
 }
 
 std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected) {

@@ -9,8 +9,8 @@
 
 namespace suspension_health_monitor {
 
-/// A list that is none of texts, or a group with nothing in it. No option takes it: it is refused as any other wrong
-/// value is.
+/// A list of something other than texts, or an empty group. No option takes it: it is refused like any other wrong
+/// value.
 struct UnusableList {
   std::string text;  ///< as it was written
   bool operator==(const UnusableList& other) const { return text == other.text; }
@@ -23,30 +23,28 @@ using OptionValue = std::variant<bool, int, double, std::string, UnusableList>;
 /// Values by full name; a nested YAML key is joined with '/', as on the ROS parameter server: `health/damping_warn`.
 using OptionMap = std::map<std::string, OptionValue>;
 
-/// One option of the struct `Options`: the only place where its name, unit, meaning and range are written.
-/// The default is the struct's own initialiser.
-template <class Options>
-struct OptionField {
-  using Member = std::variant<bool Options::*, int Options::*, double Options::*, std::string Options::*,
-                              std::optional<double> Options::*>;
-
+/// What is said of one option, and what it may be.
+struct OptionTraits {
   std::string_view group;  ///< under which people are shown it, as "input"; empty: in no table that they see
   std::string_view name;
   std::string_view unit;  ///< "-" without unit
   std::string_view help;
-  Member member;
   double min, max;           ///< smallest and largest allowed number
   std::string_view choices;  ///< allowed words, separated by one space; empty: any text
+};
+
+/// One option of the struct `Options`: the only place where its name, unit, meaning and range are written.
+/// The default is the struct's own initialiser.
+template <class Options>
+struct OptionField : OptionTraits {
+  using Member = std::variant<bool Options::*, int Options::*, double Options::*, std::string Options::*,
+                              std::optional<double> Options::*>;
+
+  Member member;
 
   constexpr OptionField(std::string_view its_name, std::string_view its_unit, std::string_view its_help,
                         Member its_member, double smallest = 0.0, double largest = 0.0, std::string_view words = {})
-      : name(its_name),
-        unit(its_unit),
-        help(its_help),
-        member(its_member),
-        min(smallest),
-        max(largest),
-        choices(words) {}
+      : OptionTraits{{}, its_name, its_unit, its_help, smallest, largest, words}, member(its_member) {}
 
   /// The same with a group in front.
   template <class... Rest>
@@ -69,17 +67,14 @@ namespace option_table {
 using Member = std::variant<bool*, int*, double*, std::string*, std::optional<double>*>;
 
 /// An option bound to the struct instance that holds its value.
-struct Bound {
-  std::string_view group, name, unit, help;
+struct Bound : OptionTraits {
   Member member;
-  double min, max;
-  std::string_view choices;
 };
 
 template <class Options>
 Bound bind(const OptionField<Options>& field, Options& options) {
   const Member member = std::visit([&](auto pointer) { return Member(&(options.*pointer)); }, field.member);
-  return {field.group, field.name, field.unit, field.help, member, field.min, field.max, field.choices};
+  return {static_cast<const OptionTraits&>(field), member};
 }
 
 /// @return what an option is at present; nothing where it may be left out, and is.

@@ -44,7 +44,7 @@ std::array<std::string, N> takeTexts(const std::string& where, OptionMap values,
     for (std::size_t i = 0; i < N; ++i) {
       known.push_back({"", names[i], "", "", "", ""});
       if (const auto text = values.extract(names[i]))
-        option_table::assign({{}, names[i], "-", "a text", &texts[i], 0.0, 0.0, {}}, text.mapped());
+        option_table::assign({{{}, names[i], "-", "a text", 0.0, 0.0, {}}, &texts[i]}, text.mapped());
     }
     refuseUnknown(values, known);
   });

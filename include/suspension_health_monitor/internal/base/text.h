@@ -12,6 +12,10 @@ namespace suspension_health_monitor {
 
 inline constexpr double kDay = 86400.0;  ///< [s]; nobody drives for longer: a message names no such time
 
+/// What names are made of.
+inline const std::string kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+inline const std::string kNameCharacters = kLetters + "0123456789_";
+
 /// For a message that refuses an unknown name.
 /// @return "; the nearest known name is ...": the only one that begins like this, or the one with the smallest share of
 /// letters to change (Levenshtein's distance); empty if that is more than half of them.
@@ -87,6 +91,9 @@ std::vector<std::string> namesOf(const Records& records) {
 
 /// @return the size of a change in whole percent, whatever its sign: "12 %".
 std::string sizeInPercent(double change);
+
+/// @return the same and to which side: "12 % below", "12 % above".
+std::string sideInPercent(double change);
 
 /// @return a share in percent, with one decimal below 1 %: "12 %".
 std::string percent(double share);

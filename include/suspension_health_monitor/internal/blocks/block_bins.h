@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
@@ -50,16 +49,10 @@ class NoiseBands {
   static constexpr double kRatio = 1.25;  ///< upper over lower end: a third of an octave
 
   explicit NoiseBands(const BlockBand& band) {
-    int from = 0;
-    const auto nextEdge = [&](int at) {
-      const double end = kRatio * (band.first + at);
-      int by_ratio = at;
-      while (band.first + by_ratio < end) ++by_ratio;
-      return at + kFewestBins > by_ratio ? at + kFewestBins : by_ratio;
-    };
-    while (from < band.size()) {
-      int to = nextEdge(from);
-      if (to > band.size() || band.size() - to < kFewestBins) to = band.size();
+    for (int from = 0; from < band.size();) {
+      int to = from + kFewestBins;
+      while (band.first + to < kRatio * (band.first + from)) ++to;
+      if (band.size() - to < kFewestBins) to = band.size();
       first_.push_back(from);
       size_.push_back(to - from);
       from = to;
@@ -67,8 +60,8 @@ class NoiseBands {
   }
 
   int count() const { return static_cast<int>(first_.size()); }
-  int first(int band) const { return first_[static_cast<std::size_t>(band)]; }  ///< bin, counted from the lowest used
-  int size(int band) const { return size_[static_cast<std::size_t>(band)]; }
+  int first(int band) const { return first_[band]; }  ///< bin, counted from the lowest used
+  int size(int band) const { return size_[band]; }
 
  private:
   std::vector<int> first_, size_;

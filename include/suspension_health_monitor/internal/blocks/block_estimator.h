@@ -64,8 +64,8 @@ class BlockEstimator {
   const std::optional<WindowEstimate>& ofAllBlocks() const { return of_all_; }
 
   /// @return of some of the blocks kept, with the data alone; nothing if they do not tell. Not for the sample path.
-  /// @param newest  age of the newest block, 0: of all.  @param count  blocks.
-  std::optional<WindowEstimate> ofBlocks(int newest, int count);
+  /// @param from  age of the newest block, 0: of all.  @param count  blocks.
+  std::optional<WindowEstimate> ofBlocks(int from, int count);
 
   /// @param each  as WindowFit::setWheelNoise.
   void setWheelNoise(const std::vector<WheelNoise>& each) { window_fit_.setWheelNoise(each); }
@@ -109,7 +109,7 @@ class BlockEstimator {
   std::size_t placeOf(int age) const {
     return static_cast<std::size_t>((head_ - age + kBlockWindows.back()) % kBlockWindows.back());
   }
-  std::vector<const StrutBlock*>& newest(int count);
+  const std::vector<const StrutBlock*>& newest(int count, int from = 0);
   void scaleSlow();
   double delayStddev() const;
   bool start();
@@ -138,7 +138,7 @@ class BlockEstimator {
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;
   bool has_theta_ = false;
-  double newest_worst_ = 0.0;     // larger relative standard deviation of b1 and b0 by the newest blocks, kWindows[0]
+  double newest_worst_ = 0.0;  // larger relative standard deviation of b1 and b0 by the newest blocks, kWindows[0]
   double reported_worst_ = HUGE_VAL;  // WindowEstimate::worst() of what update() returned last
   WindowEstimate best_, trial_;
   std::optional<WindowEstimate> of_all_;

@@ -84,7 +84,6 @@ class FourierIntegrals {
     void set(double at, const double* of) { time = at, std::copy_n(of, values.size(), values.begin()); }
   };
 
-  Half& slot(long index) { return halves_[static_cast<std::size_t>(index % kHalves)]; }
   int lostBefore(double time);  // number of readings, since last_
   // Takes in what was lost before held_, and held_.
   void bridge(double next_time, const double* next, Phases& phases);

@@ -57,6 +57,10 @@ struct StrutBlock {
     double moving_power = 0.0;    ///< |H_0(X)|^2
     double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
     double travel_power = 0.0;    ///< |H_0(X - Y)|^2 / |s|^4
+
+    explicit Band(Eigen::Index parameters);
+    void setZero();
+    void add(double weight, const Band& other);
   };
   BlockVector at;
   std::vector<Band> bands;
@@ -99,7 +103,8 @@ class StrutEquations {
   Modulation undelayed_, delayed_;
   long versions_ = 0;
   Eigen::ArrayXcd s_;
-  Eigen::ArrayXcd a_, g_, gain_, x0_, x1_, x2_, wheel_, e_over_g_;
+  Eigen::ArrayXcd a_, g_, gain_, wheel_, e_over_g_;
+  Eigen::ArrayXXcd x_;  // H_0, H_1, H_2 of x
   Eigen::ArrayXd rho_, rho_slope_;
   Eigen::MatrixXcd instruments_, regressors_;  // bins by parameters; the residual is the regressors' last column
 };

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
@@ -69,15 +68,17 @@ struct BlockWeights {
   /// @return power of e of a block over that of usual blocks, mean over the bands; what is usual has to be known.
   /// @param power  of e per bin, by band.
   double timesUsual(const Eigen::Ref<const Eigen::ArrayXd>& power) const { return (power / usual.array()).mean(); }
-  /// @return 1, or less for a block that is unusually noisy at theta.
-  double of(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta) const;
   /// @param power  of e per bin of a block, by band.
+  /// @return 1, or less for a block that is unusually noisy.
   double of(const Eigen::Ref<const Eigen::ArrayXd>& power) const;
 };
 
 /// Power of the residual at theta in a band, or in a sum of bands. It is linear in the parameters, but for r, which it
 /// does not depend on, and for the weight 1 / A.
 double residualPower(const Eigen::MatrixXd& moments, const BlockVector& theta);
+
+/// The same per bin of every band of a block.
+BandVector residualPowers(const StrutBlock& block, const NoiseBands& bands, const BlockVector& theta);
 
 /// The score Z'e of a band at theta, and its information, with the column of r scaled.
 BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, double share_scale);
@@ -150,16 +151,6 @@ class WindowFit {
   double scatterBetweenBlocks(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
 
  private:
-  /// Of the same band over blocks, weighted.
-  struct Sum {
-    Eigen::MatrixXd information, instruments, moments;
-    Eigen::VectorXd score, share;
-    double wheel_power = 0.0;
-
-    void setZero();
-    void add(double weight, const StrutBlock::Band& band);
-  };
-
   void gather(const std::vector<const StrutBlock*>& blocks);
   bool weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta);
   void measureNoise(const BlockVector& theta);
@@ -177,7 +168,7 @@ class WindowFit {
   Eigen::ArrayXXd power_;  // of e per bin, bands by blocks
   Eigen::ArrayXd weight_;  // of blocks, the newest first
   Eigen::ArrayXd present_;
-  std::vector<Sum> sums_;  // by band, over the newest gathered_ blocks
+  std::vector<StrutBlock::Band> sums_;  // by band, over the newest gathered_ blocks, weighted
   std::vector<long> versions_;
   int gathered_ = 0;
   double sum_of_weights_ = 0.0;

@@ -5,17 +5,13 @@
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/internal/health/sensor_check.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
 struct HealthOptions : HealthThresholds {
-  double hysteresis = 0.02;            ///< a level ends this far below its threshold, or a standard deviation [-]
-  double min_significance = kCertain;  ///< standard deviations that a change must have to be one
-  double early_change = kLeastChange;  ///< smaller changes need no early warning [-]
-  double false_alarm_interval = 1e6;   ///< mean time between two early warnings of a healthy strut [s]
+  double hysteresis = 0.02;  ///< a level ends this far below its threshold, or a standard deviation [-]
 
   /// @throws std::invalid_argument  if an error threshold is below its warning threshold.
   void validate() const;

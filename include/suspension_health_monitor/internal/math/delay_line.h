@@ -12,8 +12,7 @@ namespace suspension_health_monitor {
 class DelayLine {
  public:
   /// @param length  number of samples kept, >= 1.
-  explicit DelayLine(int length)
-      : size_(static_cast<std::size_t>(length)), samples_(2 * size_, 0.0), newest_(size_), missing_(size_) {}
+  explicit DelayLine(int length) : size_(length), samples_(2 * size_, 0.0), newest_(size_), missing_(size_) {}
 
   void push(double sample) {
     newest_ = newest_ + 1 == 2 * size_ ? size_ : newest_ + 1;
@@ -23,7 +22,7 @@ class DelayLine {
 
   /// @param lag  age in samples, 0 (the newest) <= lag < length.
   /// @return q^-lag x.
-  double at(int lag) const { return samples_[newest_ - static_cast<std::size_t>(lag)]; }
+  double at(int lag) const { return samples_[newest_ - lag]; }
 
   /// @return true once `length` samples have come.
   bool full() const { return missing_ == 0; }

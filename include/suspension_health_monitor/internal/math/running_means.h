@@ -82,10 +82,7 @@ class RunningComparison {
 
   /// @return 100 (1 - |y - yhat| / |y - mean y|), 100 for a perfect model, 0 for a constant; below 0 is worse than
   /// that. NaN while the measurement has not moved.
-  double fitPercent() const { return fitPercent(rmse()); }
-
-  /// The same, for a caller that has rmse() already.
-  double fitPercent(double rmse) const;
+  double fitPercent() const;
 
  private:
   enum Mean : std::size_t { kResidual, kSquareResidual, kMeasured, kSquareMeasured, kNumMeans };

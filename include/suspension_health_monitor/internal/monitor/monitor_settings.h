@@ -1,9 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
@@ -78,7 +74,7 @@ struct MonitorSettings : MonitorOptions {
   /// @return so many horizons of rows, or nine tenths of a shorter memory.
   double fewestRows(double horizons, double period) const;
   const LeastAbsoluteOptions& leastAbsolute() const { return estimators.least_absolute; }
-  HealthOptions health() const;
+  HealthOptions health() const { return {static_cast<const HealthThresholds&>(*this)}; }
 };
 
 /// Takes the options that `values` names out of it; what is not among them is the preset's.

@@ -61,9 +61,7 @@ class StrutIdentifier {
   double forgettingFactor() const { return least_absolute_.forgettingFactor(); }
 
   /// @return c_j of LA [unit of the effect's coefficient].
-  double coefficient(std::size_t j) const {
-    return least_absolute_.parameters()[kNumStrutParameters + static_cast<Eigen::Index>(j)];
-  }
+  double coefficient(std::size_t j) const { return least_absolute_.parameters()[kNumStrutParameters + j]; }
 
  private:
   int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }  // all but the sensors'

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
@@ -85,9 +84,9 @@ class VehiclePipeline {
   VehicleStreams streams_;
   Sinks sinks_;
   VehicleMonitor monitor_;
-  EarlyReadings<std::vector<double>> early_;  // by sensor
-  bool is_refused_ = false;                   // the settings do not fit the sample period that was measured
-  std::optional<VehicleGrid> grid_;           // once the sample period is known
+  EarlyReadings early_;              // by sensor
+  bool is_refused_ = false;          // the settings do not fit the sample period that was measured
+  std::optional<VehicleGrid> grid_;  // once the sample period is known
   std::optional<TyreTracker> tyre_;
   Stamp newest_{};
   double road_ = std::nan("");

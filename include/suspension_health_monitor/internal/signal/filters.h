@@ -15,7 +15,7 @@ namespace suspension_health_monitor {
 /// @return the filtered signal. Where the filter reaches beyond an end, the value at the end goes on.
 inline Eigen::VectorXd lowPassed(const std::vector<double>& taps, const Eigen::Ref<const Eigen::VectorXd>& signal) {
   if (taps.empty() || signal.size() == 0) return signal;
-  const Eigen::Map<const Eigen::VectorXd> h(taps.data(), static_cast<Eigen::Index>(taps.size()));
+  const Eigen::Map<const Eigen::VectorXd> h(taps.data(), taps.size());
   const Eigen::Index size = signal.size(), reach = h.size() / 2;
   Eigen::VectorXd extended(size + 2 * reach), passed(size);
   extended << Eigen::VectorXd::Constant(reach, signal[0]), signal, Eigen::VectorXd::Constant(reach, signal[size - 1]);
@@ -26,7 +26,7 @@ inline Eigen::VectorXd lowPassed(const std::vector<double>& taps, const Eigen::R
 /// The same in place.
 inline void passLow(const std::vector<double>& taps, std::vector<double>& signal) {
   if (taps.empty()) return;
-  Eigen::Map<Eigen::VectorXd> values(signal.data(), static_cast<Eigen::Index>(signal.size()));
+  Eigen::Map<Eigen::VectorXd> values(signal.data(), signal.size());
   values = lowPassed(taps, values);
 }
 
@@ -47,7 +47,7 @@ class BandlimitedInterpolator {
   /// @param around  the 2 kHalfWidth samples k - kHalfWidth + 1 .. k + kHalfWidth.
   double operator()(const double* around) const {
     double sum = 0.0;
-    for (int i = 0; i < 2 * kHalfWidth; ++i) sum += weights_[static_cast<std::size_t>(i)] * around[i];
+    for (int i = 0; i < 2 * kHalfWidth; ++i) sum += weights_[i] * around[i];
     return sum;
   }
 
@@ -96,8 +96,6 @@ class MotionFilter {
   /// @param signals  the filtered ones, then those to differentiate.
   /// @return the instant delay() samples ago, valid until the next call; nullptr while the filter fills.
   const Instant* push(Stamp stamp, const std::vector<double>& signals);
-
-  void reset() { stamps_.clear(); }
 
   int delay() const { return delay_; }                       ///< samples; so late is an instant
   const Eigen::VectorXd& lowPass() const { return value_; }  ///< taps of H, 2 delay() + 1

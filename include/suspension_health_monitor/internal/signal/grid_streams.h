@@ -15,8 +15,8 @@ struct StreamOptions {
   /// The streams of one sensor share its stamps, as the six channels of an IMU do. A sensor is still if all of its
   /// streams are: a vehicle that drives straight on turns about no axis.
   std::size_t sensor = 0;
-  /// An instant without a reading of this stream is none. Other streams are waited for while the readings of the
-  /// reference that wait with them span no more than kMostOptionalLag.
+  /// Every instant needs a reading of this stream. The grid waits for the other streams until the readings of the
+  /// reference that wait span more than kMostOptionalLag.
   bool required = true;
   /// A force may rest while the vehicle moves, stay at an end of its range, and have any unit: it is not judged by what
   /// accelerations are like.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,20 +11,16 @@
 
 namespace suspension_health_monitor {
 
-/// The sampling time of several streams, measured from their stamps, of the slowest one: the mean of all spacings
-/// within half and one and a half times their median. The median passes over gaps and clocks that jump, as long as they
-/// are the minority; the mean takes the jitter of n stamps down to 1/n of it. Streams that are not required have no
-/// say.
+/// The sampling time of several streams, measured from their stamps: that of the slowest stream that is required. Of
+/// each stream it is the mean of all spacings between half and one and a half times their median. The median passes
+/// over gaps and clocks that jump, as long as they are the minority; the mean of n spacings has 1/n of their jitter.
 class PeriodMeasurement {
  public:
-  /// Of a strut's streams, numbered by Side.
-  static inline const std::vector<bool> kOfOneStrut{true, true, false};
-
   static constexpr std::size_t kFewestOfRecording = 10;  ///< spacings that tell the period of something recorded
 
   /// @param spacings_wanted  of each required stream before a period is given, >= 1.
-  /// @param is_required  by stream; one at least.
-  explicit PeriodMeasurement(std::size_t spacings_wanted, const std::vector<bool>& is_required = kOfOneStrut)
+  /// @param is_required  by stream; one at least. By default those of a strut alone, numbered by Side.
+  explicit PeriodMeasurement(std::size_t spacings_wanted, const std::vector<bool>& is_required = {true, true, false})
       : spacings_wanted_(spacings_wanted), is_required_(is_required), streams_(is_required.size()) {}
 
   /// @return false if the stamp is the same as the one before: it tells nothing.
@@ -35,7 +32,6 @@ class PeriodMeasurement {
     const std::optional<Stamp>& last = streams_[stream].last;
     return last && stamp < *last;
   }
-  bool goesBack(Side side, Stamp stamp) const { return goesBack(indexOf(side), stamp); }
 
   /// @return the sampling time [s], nothing until all required streams have shown enough spacings.
   std::optional<double> period() const;
@@ -52,8 +48,6 @@ class PeriodMeasurement {
 };
 
 /// The first readings of several streams, which wait until their stamps have told the sampling time.
-/// @tparam Value  of a reading.
-template <class Value>
 class EarlyReadings {
  public:
   static constexpr std::size_t kSpacings = 50;  ///< of each required stream, to tell the sampling time
@@ -61,7 +55,7 @@ class EarlyReadings {
   struct Reading {
     std::size_t stream;
     Stamp stamp;
-    Value value;
+    std::vector<double> values;
   };
 
   /// @param is_required  by stream; one at least.
@@ -87,16 +81,16 @@ class EarlyReadings {
 
   /// @return the oldest of those that wait, which waits no longer; nothing if there is none.
   std::optional<Reading> next() {
-    if (next_ < waiting_.size()) return std::move(waiting_[next_++]);
-    waiting_ = {};
-    next_ = 0;
-    return std::nullopt;
+    if (waiting_.empty()) return std::nullopt;
+    Reading oldest = std::move(waiting_.front());
+    waiting_.pop_front();
+    return oldest;
   }
 
   /// A reading that has to wait though the sampling time is known: older ones do.
   void append(Reading reading) { waiting_.push_back(std::move(reading)); }
 
-  bool isEmpty() const { return next_ == waiting_.size(); }
+  bool isEmpty() const { return waiting_.empty(); }
 
   /// @return those of one stream that were kept out, and of all.
   const RejectCounts& rejected(std::size_t stream) const { return rejected_[stream]; }
@@ -119,8 +113,7 @@ class EarlyReadings {
   std::vector<bool> is_required_;
   PeriodMeasurement measurement_;
   std::size_t most_ = 0;
-  std::vector<Reading> waiting_;
-  std::size_t next_ = 0;
+  std::deque<Reading> waiting_;
   std::vector<RejectCounts> rejected_;
 };
 

@@ -41,6 +41,4 @@ class Recent {
   boost::circular_buffer<Sample> samples_;
 };
 
-using RecentSamples = Recent<CornerSample>;
-
 }  // namespace suspension_health_monitor

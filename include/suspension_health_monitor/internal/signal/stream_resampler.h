@@ -116,7 +116,7 @@ class StreamResampler {
   bool followsAfterGap(const SensorReading& reading) const;
   void begin(const SensorReading& reading);
   void take(const SensorReading& reading);
-  bool& stillAt(std::int64_t knot) { return still_[static_cast<std::size_t>(knot & (SmoothingSpline::kKept - 1))]; }
+  bool& stillAt(std::int64_t knot) { return still_[knot & (SmoothingSpline::kKept - 1)]; }
 
   Stamp period_, reach_;         // reach: half of the window
   std::optional<Stamp> origin_;  // an instant of the grid: knot 0

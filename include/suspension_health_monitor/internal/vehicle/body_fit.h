@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/strut_model.h"
+#include "suspension_health_monitor/internal/vehicle/top_rows.h"
 
 namespace suspension_health_monitor {
 
@@ -17,11 +17,6 @@ enum class InertiaDoubt {
   kNoPositions,  ///< it is not known where every strut stands
   kOnOneLine,    ///< fewer than three struts, or all on one line: they do not see the body turn about it
   kUncertain,    ///< the rows are too uncertain, or do not fit the positions
-};
-
-/// A number and its standard deviation.
-struct Measured {
-  double value, stddev;
 };
 
 /// How a rigid body's mass is spread.
@@ -39,36 +34,6 @@ struct BodyInertiaResult {
 /// By strut x ahead and y to the left of the strut's top, from any one point of the body [m].
 using StrutPlaces = std::vector<std::array<double, 2>>;
 
-struct BodyFitResult;
-
-/// @param fit  of the rows of all struts; nothing: not known.  @param places  by strut; empty: not known.
-BodyInertiaResult inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places);
-
-/// The tops of all struts of a body as their rows have them:
-///     z_i'' = sum_j (b1_ij d_j' + b0_ij d_j) + sum_k c_ik f_k,  d_j = w_j - z_j.
-struct TopRows {
-  Eigen::MatrixXd rate, travel;  ///< b1_ij [1/s], b0_ij [1/s^2], tops by struts
-  Eigen::MatrixXd force;         ///< c_ik [m/s^2 per unit of the force], tops by known forces
-};
-
-/// What the rows of all tops say: how much the travel rate and the travel of every strut, and every known force, moves
-/// every top, and how sure that is.
-struct BodyRows : TopRows {
-  Eigen::MatrixXd force_stddev;             ///< of c_ik
-  std::vector<Eigen::MatrixXd> covariance;  ///< by top that of its rates, then its travels
-  bool is_by_body = false;  ///< one IMU of the body tells of all tops: no more rows are independent than it has motions
-
-  Eigen::Index size() const { return rate.rows(); }
-
-  /// @return rho_ij: what strut j does to its own top it does to top i with this ratio; b1_ij / b1_jj and b0_ij / b0_jj
-  /// by their variances. a_ij / a_jj of a rigid body, but for anti-roll bars.
-  Measured ratio(Eigen::Index i, Eigen::Index j) const;
-  /// @return true if every ratio is known well enough to take the other struts out.
-  bool areKnown() const;
-  /// @return the linear struts.
-  std::vector<StrutModel> models() const;
-};
-
 /// Two struts that an anti-roll bar may join.
 using StrutPair = std::pair<std::size_t, std::size_t>;
 
@@ -84,31 +49,29 @@ struct BodyFitResult {
     std::array<Measured, 2> stiffness, damping;
   };
 
-  double phi = 0.0;  ///< error of the model per coefficient, over the largest of its kind in its row [-]
-  std::array<std::optional<double>, 3> phi_of;  ///< by Bars; none: not tried, or no fit
-  Bars bars = Bars::kNone;                      ///< that are named
-  std::vector<Bar> found;                       ///< these
+  double phi = 0.0;              ///< error of the model per coefficient, over the largest of its kind in its row [-]
+  Bars bars = Bars::kNone;       ///< that are named
+  std::vector<Bar> found;        ///< these
   std::vector<Measured> b1, b0;  ///< by strut, its own column at its own top with its share of bars [1/s], [1/s^2]
 
-  /// @param covariance  of b1 and b0 of a strut by noise and scatter, as its estimate has it.
-  /// @param own  b1, b0 of the estimate.
+  /// @param own  b1, b0 of a strut's estimate.
   /// @param friction_damping  what friction counts as in b1, TopEstimate::frictionDamping(): a damper that is not
   /// linear looks like friction, in part or as a whole.
-  /// @return that of their absolute values: with the model's error, as far as the rows of all tops leave it in the
-  /// strut's own column. A change has none of it.
-  Eigen::Matrix2d absoluteCovariance(std::size_t strut, const Eigen::Vector2d& own, const Eigen::Matrix2d& covariance,
-                                     double friction_damping) const;
+  /// @return the variances that the model's error adds to those of b1 and b0 as absolute values, as far as the rows of
+  /// all tops leave it in the strut's own column. A change has none of it.
+  Eigen::Array2d modelVariances(std::size_t strut, const Eigen::Vector2d& own, double friction_damping) const;
 
   Eigen::MatrixXd rate, travel;  ///< the rows that the body has, tops by struts [1/s], [1/s^2]
 
-  /// @return what is known of these rows by both: the body's, with an error of phi in each coefficient, and their own,
-  /// by their variances.
+  /// @return the rows by all that is known: the mean of each coefficient and that of the body, whose error is phi,
+  /// weighted by their variances.
   BodyRows combined(const BodyRows& rows) const;
 
-  Measured mass_to_pitch_inertia{}, mass_to_roll_inertia{};  ///< M/Iyy, M/Ixx [1/m^2]; infinite stddev: not seen
-  Measured product{};                                        ///< their common term, M (I^-1)_xy [1/m^2]
-  Measured x{}, y{};                                         ///< of the centre of gravity [m]
+  BodyInertia inertia{};  ///< infinite stddev: not seen
 };
+
+/// @param fit  of the rows of all struts; nothing: not known.  @param places  by strut; empty: not known.
+BodyInertiaResult inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places);
 
 /// Minimum-distance fit of a rigid body on linear struts and anti-roll bars to the rows of its tops, (B23) in
 /// doc/equations.md:
@@ -136,22 +99,22 @@ class BodyFit {
   explicit BodyFit(std::size_t struts);
 
   struct Solution {
-    Eigen::VectorXd parameters;
+    BodyFitResult::Bars bars;
+    double phi;
+    Eigen::VectorXd parameters;  ///< as RigidBody has them
     Eigen::MatrixXd covariance;
     double chi2 = 0.0;
-    double phi = 0.0;
   };
 
   std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
                                 const Eigen::VectorXd& start) const;
   std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars) const;
-  bool hasNegativeBar(const Solution& solution, BodyFitResult::Bars bars) const;
-  bool isVehicle(const Eigen::VectorXd& inertia) const;
-  bool isNamed(const Solution& without, const Solution& with, BodyFitResult::Bars bars,
-               const std::vector<BodyRows>& halves) const;
-  /// @return M/Iyy, M/Ixx, their common term, x and y of the centre of gravity.
-  Eigen::VectorXd inertia(const Eigen::MatrixXd& s) const;
-  BodyFitResult describe(const Solution& solution, BodyFitResult::Bars bars) const;
+  bool hasNegativeBar(const Solution& solution) const;
+  bool isVehicle(const Eigen::Vector4d& inertia) const;
+  bool isNamed(const Solution& without, const Solution& with, const std::vector<BodyRows>& halves) const;
+  /// @return M/Iyy, M/Ixx, x and y of the centre of gravity.
+  Eigen::Vector4d inertia(const Eigen::MatrixXd& s) const;
+  BodyFitResult describe(const Solution& solution) const;
 
   Eigen::MatrixXd q_;                                                                   // struts by motions, scaled
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), scale_ = Eigen::Vector2d::Ones();  // of x, y

@@ -2,9 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
@@ -30,7 +28,7 @@ class VehicleSpectra {
   /// @param direction  of friction, -1 to 1, with that of a wheel.
   void push(const VehicleReading& reading, double time, double direction);
   /// @param forces  of the effects, per body mass.
-  void pushEffects(double time, const double* forces) { effects_.front().push(time, forces, phases_); }
+  void pushEffects(double time, const double* forces) { streams_.back().push(time, forces, phases_); }
 
   /// The next reading of every stream is its first one.
   void restart();
@@ -48,17 +46,16 @@ class VehicleSpectra {
  private:
   enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };
 
-  /// @return true if it is true of every stream.
-  template <class Predicate>
-  bool areAll(const Predicate& predicate) const;
   void fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block);
 
   BlockBand band_;
   VehicleChannels vehicle_;
   Modulation modulation_;
   FourierIntegrals::Phases phases_;
-  std::vector<FourierIntegrals> wheels_, own_, body_, forces_, effects_;
-  std::vector<std::size_t> own_of_;  // by strut, in own_
+  std::size_t num_effects_;
+  std::vector<FourierIntegrals> streams_;  // of the wheels, the tops with a sensor, the body, the forces, the effects
+  std::vector<std::size_t> top_of_;        // by strut, in streams_
+  std::size_t body_ = 0, forces_ = 0;              // likewise; the first one
   Eigen::ArrayXcd channel_, derivative_;
 };
 
@@ -93,6 +90,8 @@ class CoupledTops {
  private:
   using Small = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStruts, kMostStruts>;
   using SmallVector = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, 0, kMostStruts, 1>;
+
+  Small loopAt(Eigen::Index bin) const;  // s^2 I + Q
 
   Modulation modulation_;
   Eigen::ArrayXcd s_;

@@ -36,9 +36,7 @@ class ImuSpectra {
   void restart();
 
   /// @return blocks in which an IMU lacks nothing.
-  double blocks(std::size_t imu) const {
-    return counts_(static_cast<Eigen::Index>(imu), static_cast<Eigen::Index>(imu));
-  }
+  double blocks(std::size_t imu) const { return counts_(imu, imu); }
 
   /// @return rms along a direction in the axes of an IMU between two frequencies [m/s^2].
   double rms(std::size_t imu, const Eigen::Vector3d& direction, double from_hz, double to_hz) const;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
-#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 #include "suspension_health_monitor/vehicle.h"
 

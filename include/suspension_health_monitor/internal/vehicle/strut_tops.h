@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -37,8 +36,6 @@ class StrutTops {
 
   /// @return taps of the low-pass filter that samples have passed; none: nothing is filtered.
   std::vector<double> lowPass() const;
-
-  void reset();
 
  private:
   void collect(const GridInstant& instant);

@@ -55,7 +55,7 @@ class VehicleGrid {
   const BodyLevel& bodyLevel() const { return level_; }
 
   /// @return what timing and losses of a sensor are judged by: all of its streams share their stamps.
-  const StreamGate& gate(std::size_t sensor) const { return grid_.gate(channels_[sensor].first); }
+  const StreamGate& gate(std::size_t sensor) const { return grid_.gate(sensors_[sensor].stream); }
 
   /// @return readings of a sensor that were kept out, and what was lost for want of its readings.
   RejectCounts rejected(std::size_t sensor) const;
@@ -72,13 +72,7 @@ class VehicleGrid {
   std::uint64_t numInstants() const { return num_instants_; }
 
  private:
-  struct Channels {
-    std::size_t first, end;  // streams
-    VehicleReading::Sensor sensor;
-    std::size_t place;  // of the strut
-  };
-
-  void lead(const Channels& channels, const double* values, Stamp taken);
+  void lead(const VehicleStreams::Sensor& sensor, const double* values, Stamp taken);
   void give(VehicleReading reading);
   void take(const GridInstant& instant);
   void lead(const GridInstant& instant);
@@ -96,7 +90,7 @@ class VehicleGrid {
   std::vector<GridInstant> waiting_;
   std::vector<VehicleReading> waiting_readings_;
   StreamGrid grid_;
-  std::vector<Channels> channels_;       // by sensor
+  std::vector<VehicleStreams::Sensor> sensors_;
   std::vector<WhiteLevel> body_levels_;  // of the body's IMU, by stream
   std::optional<Stamp> last_;
   std::uint64_t num_instants_ = 0;

@@ -10,7 +10,7 @@
 
 #include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
-#include "suspension_health_monitor/internal/vehicle/strut_tops.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 
@@ -67,6 +67,8 @@ struct VehicleStreams {
     /// Its first: the body's IMU has six (VehicleChannels::body_imu), other IMUs one along the strut, others one for
     /// each force.
     std::size_t stream;
+    std::size_t count;                     ///< of its streams
+    std::size_t strut;                     ///< of an IMU of a strut its place
     std::string setting;                   ///< of the vehicle file that names the topic
     std::vector<std::size_t> fields = {};  ///< that are its forces, in kWrenchFields
   };

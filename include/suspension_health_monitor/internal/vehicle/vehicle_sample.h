@@ -43,10 +43,7 @@ struct VehicleSample {
   double road = std::nan("");  ///< acceleration of the road [m/s^2]; NaN: not measured near this instant
 
   /// @return what the two accelerometers of strut i read.
-  CornerSample ofStrut(std::size_t i) const {
-    const auto row = static_cast<Eigen::Index>(i);
-    return {stamp, sprung[row], unsprung[row]};
-  }
+  CornerSample ofStrut(std::size_t i) const { return {stamp, sprung[i], unsprung[i]}; }
 };
 
 /// Which streams of a StreamGrid are what on a vehicle. All of them but the road must be required ones.

@@ -3,9 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 #include "suspension_health_monitor/internal/signal/stream_grid.h"
