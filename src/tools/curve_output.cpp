@@ -70,7 +70,7 @@ struct OtherDrive {
 OtherDrive readOther(const po::variables_map& values, const std::string& name) {
   try {
     const BagOptions options = readBagOptions(values);
-    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), {});
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), false);
     recorded.read();
     const std::vector<IdentifyResult> struts = recorded.identified().struts;
     return {name, options.settings, struts, curvesOfBags(options, struts)};

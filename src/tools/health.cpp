@@ -186,7 +186,7 @@ void watchBags(const po::variables_map& values) {
   const AskedVehicle& vehicle = options.vehicle;
   HealthyStruts healthy = healthyOf(values, options);
   HealthFiles files(values, vehicle);
-  RecordedMonitor recorded(options, std::move(healthy),
+  RecordedMonitor recorded(options, std::move(healthy), true, {},
                            [&](std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
                              files.add(strut, moment, judged_by);
                            });

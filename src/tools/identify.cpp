@@ -173,7 +173,7 @@ void identifyBags(const po::variables_map& values) {
   const HealthyStruts healthy = healthyOf(values, options);
   Files files(values, vehicle);
   Digest<MonitorReport> table(kTableLines);
-  RecordedMonitor recorded(options, healthy, {}, [&](std::size_t strut, const MonitorReport& report) {
+  RecordedMonitor recorded(options, healthy, false, [&](std::size_t strut, const MonitorReport& report) {
     files.rows.add(strut, report);
     if (vehicle.only == strut && report.has_row) table.add(report);
   });

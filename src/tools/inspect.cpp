@@ -245,7 +245,7 @@ void inspectBags(const po::variables_map& values) {
   if (by_hand) {
     inspected = bounced(options);
   } else {
-    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), RecordedMonitor::noRows);
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), true);
     recorded.read();
     inspected = {strutsOf(recorded), toSeconds(recorded.log(0).elapsed()), {}};
     recorded.printInput();

@@ -16,7 +16,8 @@
 
 namespace suspension_health_monitor {
 
-RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts healthy, const Row& row, const Report& report)
+RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts healthy, bool keeps_logs,
+                                 const Report& report, const Row& row)
     : options_(options),
       healthy_(std::move(healthy)),
       streams_(options.vehicle.layout),
@@ -35,9 +36,11 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
     });
     pipeline_.setEffects(model.effects(), model.strutFor(model.effects()), i);
     if (healthy_[i]) pipeline_.setBaseline(healthy_[i]->baseline, i);
-    if (row)
+    if (keeps_logs)
       logs_.emplace_back(fromSeconds(options.settings.common.shell.input_timeout), options.bags.neededTopics(),
-                         [this, i, row](const HealthMoment& moment) { row(i, moment, pipeline_.baseline(i)); });
+                         [this, i, row](const HealthMoment& moment) {
+                           if (row) row(i, moment, pipeline_.baseline(i));
+                         });
   }
 }
 
