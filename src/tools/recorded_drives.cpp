@@ -20,8 +20,7 @@ namespace suspension_health_monitor {
 namespace {
 
 VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout) {
-  VehicleBag read;
-  VehicleDrive& drive = read.drive;
+  VehicleDrive drive;
   drive.struts.resize(layout.struts.size());
   for (const VehicleLayout::KnownForce& force : layout.known_forces) drive.forces.push_back({force.name, {}});
   SampleSinks take;
@@ -31,17 +30,10 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   };
   take.body = [&](const BodyMotion& motion) { drive.struts.front().body.push_back(motion); };
   take.take_back = [&] { dropNewest(drive, kSignalTuning.outcomes); };
-  const ReadSamples samples = readSamples(bag, options, layout, take);
-  const VehicleGrid& grid = samples.grid;
-  grid.describe(drive);
-  drive.places = grid.vehicle().places();
-  read.num_instants = grid.numInstants();
-  read.body_level = grid.bodyLevel();
-  read.alignment = describeAlignment(grid.streams());
-  const VehicleStreams streams(layout);
-  for (std::size_t i = 0; i < samples.rejected.size(); ++i)
-    read.sensors.push_back({streams.sensors[i].topic, samples.rejected[i], grid.missed(i)});
-  return read;
+  ReadSamples read = readSamples(bag, options, layout, take);
+  read.grid.describe(drive);
+  drive.places = read.grid.vehicle().places();
+  return {std::move(drive), std::move(read)};
 }
 
 }  // namespace
@@ -90,7 +82,7 @@ std::vector<VehicleBag> readDrives(BagOptions& options, TopicGaps& gaps) {
   VehicleLayout& layout = options.vehicle.layout;
   for (const std::string& path : options.bags.paths)
     drives.push_back(readBag(options.bags.of(path, gaps), options.settings.common, layout));
-  layout.turn(drives.front().body_level.mount());
+  layout.turn(drives.front().read.grid.bodyLevel().mount());
   return drives;
 }
 
@@ -98,8 +90,9 @@ void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, c
   gaps.print();
   printPeriod(options, options.period());
   for (const VehicleBag& bag : bags) {
-    printReadings(bag.num_instants, bag.alignment, bag.body_level);
-    for (const VehicleBag::Sensor& sensor : bag.sensors) printRejected(sensor.topic, sensor.rejected);
+    printReadings(bag.read.grid);
+    for (std::size_t i = 0; i < bag.read.rejected.size(); ++i)
+      printRejected(options.bags.topics[i].name, bag.read.rejected[i]);
   }
 }
 
@@ -107,9 +100,9 @@ void printPeriod(const BagOptions& options, double period) {
   std::printf("sample period %.6g s%s\n", period, options.period_measured ? " (measured)" : "");
 }
 
-void printReadings(std::uint64_t num_instants, const std::string& alignment, const BodyLevel& level) {
-  std::printf("%" PRIu64 " instants, readings %s\n", num_instants, alignment.c_str());
-  const std::string leans = describe(level);
+void printReadings(const VehicleGrid& grid) {
+  std::printf("%" PRIu64 " instants, readings %s\n", grid.numInstants(), describeAlignment(grid.streams()).c_str());
+  const std::string leans = describe(grid.bodyLevel());
   if (!leans.empty()) std::printf("%s\n", leans.c_str());
 }
 

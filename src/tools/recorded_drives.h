@@ -7,7 +7,6 @@
 #include "bag_options.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
-#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"
 
@@ -24,8 +23,9 @@ struct SampleSinks {
 
 /// What came of reading samples.
 struct ReadSamples {
-  VehicleGrid grid;                    ///< after the last reading
-  std::vector<RejectCounts> rejected;  ///< by sensor, wherever it was noticed
+  VehicleGrid grid;  ///< after the last reading: takes no more
+  std::vector<RejectCounts>
+      rejected;  ///< by VehicleStreams::sensors, without that of the road, wherever it was noticed
 };
 
 /// Reads bags as samples of a vehicle: all sensors but that of the road on one grid, the strut tops known by their own
@@ -39,16 +39,7 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, Veh
 struct VehicleBag {
   /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
   VehicleDrive drive;
-  std::uint64_t num_instants;
-  std::string alignment;  ///< describeAlignment()
-  BodyLevel body_level;
-  /// What became of one sensor's messages.
-  struct Sensor {
-    std::string topic;
-    RejectCounts rejected;
-    std::uint64_t missed;  ///< readings of others and instants that were lost for want of its readings
-  };
-  std::vector<Sensor> sensors;  ///< by VehicleStreams::sensors, without that of the road
+  ReadSamples read;
 };
 
 /// Reads bags as drives of the vehicle, one each, as readSamples().
@@ -64,7 +55,7 @@ void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, c
 void printPeriod(const BagOptions& options, double period);
 
 /// Tells people what the readings became.
-void printReadings(std::uint64_t num_instants, const std::string& alignment, const BodyLevel& level);
+void printReadings(const VehicleGrid& grid);
 
 /// Tells people what became of the messages of a sensor that were kept out.
 void printRejected(const std::string& topic, const RejectCounts& rejected);

@@ -90,7 +90,7 @@ std::string RecordedMonitor::whyTooLittle() const {
 void RecordedMonitor::printInput() const {
   gaps_.print();
   printPeriod(options_, *pipeline_.period());
-  printReadings(pipeline_.grid()->numInstants(), describeAlignment(grid()), pipeline_.grid()->bodyLevel());
+  printReadings(*pipeline_.grid());
   for (std::size_t i = 0; i < topics_.size(); ++i) printRejected(topics_[i], pipeline_.rejected(i));
   for (const std::size_t i : options_.vehicle.asked) {
     const InputStatus& input = strut(i).input();

@@ -15,6 +15,7 @@
 
 #include "ros/vehicle_options.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "tools/command.h"
 #include "tools/recorded_drives.h"
 
@@ -134,7 +135,7 @@ TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
       EXPECT_TRUE(strut.position || !strut.frame) << strut.name;
     EXPECT_NEAR(options.period(), 1.0 / kRate, 1e-6);
     ASSERT_EQ(drives.size(), 2u);
-    EXPECT_EQ(drives[0].alignment, "paired");
+    EXPECT_EQ(describeAlignment(drives[0].read.grid.streams()), "paired");
     ASSERT_EQ(drives[0].drive.struts.size(), 3u);
     ASSERT_EQ(drives[1].drive.struts[0].samples.size(),
               500u - 2 * static_cast<std::size_t>(MotionFilter(std::chrono::milliseconds(10), 1, 1).delay()));
@@ -150,9 +151,10 @@ TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
         ASSERT_NEAR(sample.unsprung_acceleration, wheel(i, t), 5e-3) << i << " at " << t;
       }
     }
-    ASSERT_EQ(drives[0].sensors.size(), 5u);
-    for (const VehicleBag::Sensor& imu : drives[0].sensors)
-      EXPECT_EQ(imu.rejected.total() + imu.missed, 0u) << imu.topic;
+    const auto& [grid, rejected] = drives[0].read;
+    ASSERT_EQ(rejected.size(), 5u);
+    for (std::size_t i = 0; i < rejected.size(); ++i)
+      EXPECT_EQ(rejected[i].total() + grid.missed(i), 0u) << options.bags.topics[i].name;
   }
 }
 
@@ -183,9 +185,9 @@ TEST_F(VehicleBags, HoldKnownForcesOnTheSameGrid) {
     ASSERT_NEAR(bag.drive.forces[0].values[k], pull(t), 0.5) << t;
     ASSERT_NEAR(bag.drive.forces[1].values[k], -2.0 * pull(t), 1.0) << t;
   }
-  ASSERT_EQ(bag.sensors.size(), 6u);
-  EXPECT_EQ(bag.sensors[5].topic, "/tow_bar");
-  EXPECT_EQ(bag.sensors[5].rejected.count(RejectReason::kNotFinite), 1u);
+  ASSERT_EQ(bag.read.rejected.size(), 6u);
+  EXPECT_EQ(options.bags.topics[5].name, "/tow_bar");
+  EXPECT_EQ(bag.read.rejected[5].count(RejectReason::kNotFinite), 1u);
 }
 
 TEST_F(VehicleBags, OfOtherVehiclesAreRefused) {
