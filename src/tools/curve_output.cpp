@@ -6,7 +6,6 @@
 
 #include "command.h"
 #include "html_page.h"
-#include "json_of.h"
 #include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
@@ -136,8 +135,6 @@ void printTravel(const TravelStatistics& travel) {
     std::printf("%s at %.3g mm: hit %d times, %s of the time in the last tenth before it or in it\n",
                 stop.effect.c_str(), 1e3 * stop.gap, stop.hits, percent(stop.near).c_str());
 }
-
-nlohmann::json toJson(const TravelStatistics& travel) { return jsonOf(travel); }
 
 std::vector<json> againstOther(po::variables_map values, const std::vector<IdentifyResult>& now,
                                const std::vector<StrutCurves>& curves) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -72,10 +71,6 @@ std::string ownSettings(const StrutOfDrive& found, const char* indent) {
                           indent, strut.friction->force, strut.friction->stddev, indent, strut.friction->damping_gain);
 }
 
-bool isIdentified(const std::string& name) {
-  return name == "integration_horizon" || name == "baseline_file" || name.rfind("nominal/", 0) == 0;
-}
-
 /// Settings of one strut, or of all, nested and indented.
 std::string nested(const OptionMap& settings, const char* indent) {
   YAML::Node groups(YAML::NodeType::Map);
@@ -97,8 +92,8 @@ std::string nested(const OptionMap& settings, const char* indent) {
 
 /// Without the settings that the identified ones replace.
 OptionMap othersOf(OptionMap given) {
-  for (auto entry = given.begin(); entry != given.end();)
-    entry = isIdentified(entry->first) ? given.erase(entry) : std::next(entry);
+  for (const char* name : {"integration_horizon", "baseline_file"}) given.erase(name);
+  takePrefixed(given, "nominal");
   return given;
 }
 
