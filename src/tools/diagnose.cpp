@@ -202,7 +202,7 @@ void search(const po::variables_map& values) {
   const ImuBags& bags = asked.options.bags;
   if (page)
     page->write(found, searching, whole,
-                {fileNames(bags.paths), originOf(values, bags.allTopics()), dataJson(asked.options)});
+                {fileNames(bags.paths), originOf(values, namesOf(bags.topics)), dataJson(asked.options)});
 }
 
 }  // namespace

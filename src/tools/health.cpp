@@ -204,7 +204,7 @@ void watchBags(const po::variables_map& values) {
   if (files.page)
     files.page->write(healthTemplate(), {{"struts", struts},
                                          {"data", shortened(dataJson(options))},
-                                         {"origin", originOf(values, options.bags.allTopics())}});
+                                         {"origin", originOf(values, namesOf(options.bags.topics))}});
   recorded.printInput();
   for (const std::size_t i : vehicle.asked) {
     std::printf("\n%s", vehicle.prefix(i, ", ").c_str());

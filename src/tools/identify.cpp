@@ -187,7 +187,7 @@ void identifyBags(const po::variables_map& values) {
   files.commitTables(whole);
   if (files.page)
     files.page->write(curvesTemplate(), curveFindings(vehicle, whole, join(fileNames(options.bags.paths)),
-                                                      originOf(values, options.bags.allTopics())));
+                                                      originOf(values, namesOf(options.bags.topics))));
   const Nominal nominal(recorded, found.vehicle.struts, options.settings);
   const bool has_settings = files.settings && !nominal.struts.empty();
   if (has_settings) files.settings->commit(nominal.text(values, options));

@@ -21,7 +21,7 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
     : options_(options),
       healthy_(std::move(healthy)),
       streams_(options.vehicle.layout),
-      topics_(options.bags.allTopics()),
+      topics_(namesOf(options.bags.topics)),
       gaps_(options.settings.common.shell.input_timeout),
       pipeline_(
           options.settings, streams_, options.bags.transforms.get(),
