@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include "message_pipeline.h"
 #include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/signal/stream_silence.h"
+#include "task_log.h"
 #include "vehicle_options.h"
 
 namespace suspension_health_monitor {
@@ -31,8 +31,6 @@ class PublishedTopics {
 /// When the messages of one sensor came.
 class Arrivals {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// @param timeout  [s] silence, by the clock and by the wall clock, that is an error.
   /// @param type  of its messages, as sensor_msgs/Imu: what else has such is named while nothing comes.
   Arrivals(const std::string& topic, double timeout, const std::string& type)
@@ -69,8 +67,6 @@ class Arrivals {
 /// their place. Counters run from the start or the last reset; a warning is about what came since the last report.
 class InputTask {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// @param topics  by VehicleStreams::sensors.
   InputTask(const VehicleOptions& options, const VehicleStreams& streams, const std::vector<std::string>& topics);
 

@@ -22,8 +22,6 @@ namespace suspension_health_monitor {
 /// The nodelet as its struts see it. Everything is called in its queue.
 class StrutHost {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   virtual ~StrutHost() = default;
   virtual MessagePipeline* pipeline() = 0;                            ///< nullptr: none yet
   virtual std::string whyNoMonitor() = 0;                             ///< why the struts have no monitors

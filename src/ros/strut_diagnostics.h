@@ -75,8 +75,6 @@ class StrutDiagnostics {
   bool note(const MonitorReport& report);
 
  private:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// When a reading was accepted last, as seen from the reports.
   struct Accepted {
     std::uint64_t samples = 0;

@@ -8,11 +8,12 @@
 
 namespace suspension_health_monitor {
 
+/// What a task of /diagnostics says.
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
 /// Tells the terminal when the level of a task of /diagnostics changes: once, with the reason.
 class TaskLog {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// @param task  as the lines name it.
   /// @param least  levels below are reported only as the end of one that was.
   /// @param lasting  [s] of wall time that a level must last first. Above 0 a new reason of a level from `least` on is

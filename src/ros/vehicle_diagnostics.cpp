@@ -16,8 +16,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
-
 void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
   const Measured unknown{kUnknown, kUnknown};
   const auto set = [](const Measured& from, double& value, double& stddev) {
@@ -30,7 +28,7 @@ void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
   set(body ? body->y : unknown, msg.centre_of_gravity[1], msg.centre_of_gravity_stddev[1]);
 }
 
-void describeBody(const BodyInertiaResult& found, diagnostic_updater::DiagnosticStatusWrapper& status) {
+void describeBody(const BodyInertiaResult& found, Status& status) {
   const auto add = [&](const char* name, const Measured& number) {
     status.addf(name, "%.4g +- %.2g", number.value, number.stddev);
   };
@@ -137,7 +135,7 @@ void CornerOutput::publish(const MessagePipeline* pipeline) {
   publisher_.publish(boost::make_shared<const CornerComparison>(toMsg(confirmed_, newest_)));
 }
 
-void CornerOutput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void CornerOutput::describe(Status& status) const {
   status.summary(static_cast<unsigned char>(confirmed_.level), suspension_health_monitor::describe(confirmed_));
   for (std::size_t i = 0; i < kNumCorners; ++i) {
     const std::string name(kCornerNames[i]);
@@ -198,12 +196,12 @@ void VehicleDiagnostics::publishCoupling() {
 void VehicleDiagnostics::describeCoupling(Status& status) const {
   const VehicleCoupling known = coupling();
   if (!known) {
-    status.summary(DiagnosticStatus::STALE, (monitor() != nullptr ? "the drives so far " : "") + known.reason);
+    status.summary(Status::STALE, (monitor() != nullptr ? "the drives so far " : "") + known.reason);
     return;
   }
-  status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
+  status.summary(Status::OK, "it is known how the struts move one another");
   if (const std::string mistake = describeMistake(*monitor(), struts_); !mistake.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, mistake);
+    status.mergeSummary(Status::WARN, mistake);
   status.addf("model error", "%.2g %%", 100.0 * known.model_error);
   if (struts_.size() > 1) describeBody(inertiaOf(monitor()->body(), placesOf(*monitor())), status);
   for (const AntiRollBarFound& bar : known.bars)

@@ -33,7 +33,7 @@ class CornerOutput {
   void publish(const MessagePipeline* pipeline);
 
   /// The task "Corners".
-  void describe(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void describe(Status& status) const;
 
  private:
   CornerOutput(ros::NodeHandle& node, const CornerPlaces& places);
@@ -50,8 +50,6 @@ class CornerOutput {
 /// the struts move one another as the latched topic ~coupling; and corners/comparison.
 class VehicleDiagnostics {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// @param placement  outlives this object.
   VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
                      const VehicleOptions& options, const VehiclePlacement& placement,
