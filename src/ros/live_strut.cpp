@@ -55,10 +55,8 @@ ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHan
   updater_.emplace(node, private_node, own.getNamespace());
   updater_->setHardwareID(own.getNamespace().substr(1));
   updater_->add("Input", [this](auto& status) { host_.describeInput(place_, status); });
-  diagnostics_.addTo(*updater_, [this](std::string& why_none) {
-    why_none = host_.whyNoMonitor();
-    return monitor();
-  });
+  diagnostics_.addTo(
+      *updater_, [this] { return monitor(); }, [this] { return host_.whyNoMonitor(); });
   services_ = {own.advertiseService("set_effects", &LiveStrut::onSetEffects, this),
                own.advertiseService("save_model", &LiveStrut::onSaveModel, this),
                own.advertiseService("save_baseline", &LiveStrut::onSaveBaseline, this),
@@ -117,9 +115,9 @@ std::optional<MotionScale> LiveStrut::motionScaleNow() const {
 
 bool LiveStrut::onSaveModel(Trigger::Request&, Trigger::Response& response) {
   return answer(response, [this] {
-    if (monitor() == nullptr || !monitor()->modelEstimate().valid()) throw std::runtime_error(kNothingToSave);
-    const StrutEstimate& estimate = monitor()->modelEstimate();
-    model_.save({estimate.damping_to_mass, estimate.stiffness_to_mass, monitor()->effects(), {}});
+    const std::optional<StrutModel> now = monitor() != nullptr ? modelOf(*monitor()) : std::nullopt;
+    if (!now) throw std::runtime_error(kNothingToSave);
+    model_.save(*now);
     return options_.shell.model_file + ": " + model_.describe();
   });
 }

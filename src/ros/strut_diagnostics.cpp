@@ -88,14 +88,14 @@ void addJudgement(Status& status, const std::string& name, const std::optional<d
 
 }  // namespace
 
-void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& find) {
+void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& find,
+                             const std::function<std::string()>& why_none) {
   const auto add = [&](const char* task, void (StrutDiagnostics::*describe)(const SuspensionMonitor&, Status&)) {
-    updater.add(task, [this, find, describe](Status& status) {
-      std::string why_none;
-      if (const SuspensionMonitor* monitor = find(why_none))
+    updater.add(task, [this, find, why_none, describe](Status& status) {
+      if (const SuspensionMonitor* monitor = find())
         (this->*describe)(*monitor, status);
       else
-        status.summary(Status::STALE, join({why_none, describeSilent(silent_())}, "; "));
+        status.summary(Status::STALE, join({why_none(), describeSilent(silent_())}, "; "));
     });
   };
   add("Health", &StrutDiagnostics::describeHealth);

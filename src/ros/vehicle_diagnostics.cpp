@@ -109,11 +109,6 @@ CornerComparison toMsg(const CornerComparisonReport& report, Stamp stamp) {
 
 }  // namespace
 
-std::optional<CornerOutput> CornerOutput::of(ros::NodeHandle& node, const std::vector<std::string>& struts) {
-  const std::optional<CornerPlaces> places = cornersAmong(struts);
-  return places ? std::optional(CornerOutput(node, *places)) : std::nullopt;
-}
-
 CornerOutput::CornerOutput(ros::NodeHandle& node, const CornerPlaces& places)
     : places_(places), publisher_(node.advertise<CornerComparison>("corners/comparison", 1, true)) {}
 
@@ -159,7 +154,6 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
       diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
       coupling_(private_node.advertise<CouplingInUse>("coupling", 1, true)),
       coupling_log_(name + " coupling"),
-      corners_(CornerOutput::of(node, struts_)),
       updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Coupling", [this](Status& status) {
@@ -167,6 +161,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
     coupling_log_.note(status);
   });
   updater_.add("Input", describe_input);
+  if (const std::optional<CornerPlaces> places = cornersAmong(struts_)) corners_.emplace(node, *places);
   if (corners_) updater_.add("Corners", [this](Status& status) { corners_->describe(status); });
 }
 

@@ -24,9 +24,7 @@ namespace suspension_health_monitor {
 /// The four corners of a vehicle against each other: the latched topic corners/comparison and a task of /diagnostics.
 class CornerOutput {
  public:
-  /// @param struts  the names of all struts.
-  /// @return nothing unless the four corners are among them.
-  static std::optional<CornerOutput> of(ros::NodeHandle& node, const std::vector<std::string>& struts);
+  CornerOutput(ros::NodeHandle& node, const CornerPlaces& places);
 
   /// Judges the corners and publishes the newest verdict that two judgements in a row agreed on.
   /// @param pipeline  nullptr: none yet.
@@ -36,8 +34,6 @@ class CornerOutput {
   void describe(Status& status) const;
 
  private:
-  CornerOutput(ros::NodeHandle& node, const CornerPlaces& places);
-
   CornerComparisonReport judge(const MessagePipeline* pipeline);
 
   CornerPlaces places_;  // of the corners among the struts
