@@ -101,8 +101,8 @@ Baseline toBaseline(const BaselineSettings& settings) {
 }
 
 // Damage as large as its error threshold must be significant against a baseline: else it could never be proved.
-void checkCertain(const char* name, double value, double stddev, double error, double min_significance) {
-  if (stddev / value * min_significance <= std::log1p(error)) return;
+void checkCertain(const char* name, double value, double stddev, double error) {
+  if (stddev / value * HealthOptions{}.min_significance <= std::log1p(error)) return;
   throw std::runtime_error(formatted(
       "too uncertain to judge by: %s = %.3g +- %.3g, so that damage of %.3g %% would not be significant; drive "
       "on, or use a rougher road",
@@ -190,10 +190,9 @@ void LiveBaseline::save(const SuspensionMonitor* monitor) {
   if (path_.empty()) throw std::runtime_error("no file to write to: set the parameter baseline_file");
   const StrutEstimate& estimate = monitor->report().estimate;
   const MonitorOptions& options = monitor->options();
-  checkCertain("damping_to_mass", estimate.damping_to_mass, estimate.damping_to_mass_stddev, options.damping_error,
-               HealthOptions{}.min_significance);
+  checkCertain("damping_to_mass", estimate.damping_to_mass, estimate.damping_to_mass_stddev, options.damping_error);
   checkCertain("stiffness_to_mass", estimate.stiffness_to_mass, estimate.stiffness_to_mass_stddev,
-               options.stiffness_error, HealthOptions{}.min_significance);
+               options.stiffness_error);
   const Baseline present = baselineOf(estimate, monitor->report().stamp);
   write(present, *monitor);
   known_ = present;

@@ -33,11 +33,6 @@ struct Files {
     if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
   }
 
-  void commitTables(const json& whole) {
-    if (findings) findings->commit(whole.dump(2) + '\n');
-    if (csv) csv->commit();
-  }
-
   std::optional<TextFile> csv, findings, settings;
   std::optional<HtmlPage> page;
   RowTable rows;
@@ -184,7 +179,8 @@ void identifyBags(const po::variables_map& values) {
     found.curves = curvesOfBags(options, found.vehicle.struts);
   found.against = againstOther(values, found.vehicle.struts, found.curves);
   const json whole = toJson(recorded, found);
-  files.commitTables(whole);
+  if (files.findings) files.findings->commit(whole.dump(2) + '\n');
+  if (files.csv) files.csv->commit();
   if (files.page)
     files.page->write(curvesTemplate(), curveFindings(vehicle, whole, join(fileNames(options.bags.paths)),
                                                       originOf(values, namesOf(options.bags.topics))));

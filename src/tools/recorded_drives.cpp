@@ -119,16 +119,6 @@ std::optional<int> givenHorizon(const BagOptions& options, std::size_t strut) {
   return MonitorSettings(settings).horizonSamples(options.period());
 }
 
-VehicleDiagnosis searched(const AskedDrives& asked, const DiagnoseOptions& searching) {
-  const AskedVehicle& vehicle = asked.options.vehicle;
-  std::vector<DiagnoseOptions> by_strut(vehicle.names.size(), searching);
-  for (std::size_t i = 0; i < by_strut.size(); ++i) {
-    by_strut[i].horizon_samples = givenHorizon(asked.options, i);
-    by_strut[i].model = asked.models[i];
-  }
-  return diagnoseVehicle(asked.drives, vehicle.names, by_strut, asked.models);
-}
-
 void requireCoupling(const VehicleCoupling& coupling) {
   if (!coupling) throw TooLittleError("the drives " + coupling.reason);
 }
@@ -183,8 +173,14 @@ RecordedComparison compareBags(const AskedDrives& asked, const std::function<voi
 VehicleDiagnosis diagnoseBags(const AskedDrives& asked, DiagnoseOptions& searching) {
   searching.sample_period = asked.options.period();
   searching.candidates = asked.library;
-  VehicleDiagnosis found = searched(asked, searching);
-  asked.gaps.explain([&] { requireOne(found, asked.options.vehicle); });
+  const AskedVehicle& vehicle = asked.options.vehicle;
+  std::vector<DiagnoseOptions> by_strut(vehicle.names.size(), searching);
+  for (std::size_t i = 0; i < by_strut.size(); ++i) {
+    by_strut[i].horizon_samples = givenHorizon(asked.options, i);
+    by_strut[i].model = asked.models[i];
+  }
+  VehicleDiagnosis found = diagnoseVehicle(asked.drives, vehicle.names, by_strut, asked.models);
+  asked.gaps.explain([&] { requireOne(found, vehicle); });
   return found;
 }
 
