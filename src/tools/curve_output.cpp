@@ -103,9 +103,8 @@ json against(const OtherDrive& other, std::size_t place, const IdentifyResult& n
 
 std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<IdentifyResult>& found) {
   TopicGaps gaps(options.settings.common.shell.input_timeout);
-  std::vector<VehicleDrive> drives;
-  for (VehicleBag& bag : readDrives(options, gaps)) drives.push_back(std::move(bag.drive));
-  const SeparatedVehicle own = separateVehicle(drives, options.vehicle.names, options.period(), {});
+  const SeparatedVehicle own =
+      separateVehicle(readDrives(options, gaps).drives, options.vehicle.names, options.period(), {});
   std::vector<StrutCurves> curves(found.size());
   for (const std::size_t i : options.vehicle.asked) {
     const StrutEstimate& linear = found[i].estimate;

@@ -195,7 +195,7 @@ void search(const po::variables_map& values) {
   const VehicleDiagnosis found = diagnoseBags(asked, searching);
   const std::vector<std::string> changes = changesOf(asked);
   progress.clear();
-  printBags(asked.options, asked.bags, asked.gaps);
+  printBags(asked.options, asked.recorded.bags, asked.gaps);
   const json whole = tell(found, asked, changes);
   if (file) file->commit(whole.dump(2) + '\n');
   if (model) model->commit(modelText(found, vehicle));

@@ -110,14 +110,14 @@ Inspected bounced(BagOptions& options) {
   TopicGaps gaps(options.settings.common.shell.input_timeout);
   std::vector<Drive> drives;
   double seconds = 0.0;
-  const std::vector<VehicleBag> bags = readDrives(options, gaps);
-  for (const VehicleBag& bag : bags) {
-    drives.push_back(bag.drive.struts.front());
+  const RecordedDrives recorded = readDrives(options, gaps);
+  for (const VehicleDrive& drive : recorded.drives) {
+    drives.push_back(drive.struts.front());
     seconds += static_cast<double>(drives.back().samples.size()) * options.period();
   }
   const StrutEstimate found = estimateFromFreeDecays(drives);
   const std::string doubt = found.valid() ? "" : "no free decays: push harder, let go, wait until it rests, ten times";
-  printBags(options, bags, gaps);
+  printBags(options, recorded.bags, gaps);
   return {{{"strut", found, std::nullopt, std::nullopt, doubt}}, seconds, {}};
 }
 

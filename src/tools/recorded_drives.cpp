@@ -19,8 +19,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout) {
-  VehicleDrive drive;
+void readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout, RecordedDrives& into) {
+  VehicleDrive& drive = into.drives.emplace_back();
   drive.struts.resize(layout.struts.size());
   for (const VehicleLayout::KnownForce& force : layout.known_forces) drive.forces.push_back({force.name, {}});
   SampleSinks take;
@@ -30,10 +30,9 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   };
   take.body = [&](const BodyMotion& motion) { drive.struts.front().body.push_back(motion); };
   take.take_back = [&] { dropNewest(drive, kSignalTuning.outcomes); };
-  ReadSamples read = readSamples(bag, options, layout, take);
-  read.grid.describe(drive);
-  drive.places = read.grid.vehicle().places();
-  return {std::move(drive), std::move(read)};
+  const VehicleGrid& grid = into.bags.emplace_back(readSamples(bag, options, layout, take)).grid;
+  grid.describe(drive);
+  drive.places = grid.vehicle().places();
 }
 
 }  // namespace
@@ -77,22 +76,21 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, Veh
   return {std::move(grid), rejected};
 }
 
-std::vector<VehicleBag> readDrives(BagOptions& options, TopicGaps& gaps) {
-  std::vector<VehicleBag> drives;
+RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
+  RecordedDrives recorded;
   VehicleLayout& layout = options.vehicle.layout;
   for (const std::string& path : options.bags.paths)
-    drives.push_back(readBag(options.bags.of(path, gaps), options.settings.common, layout));
-  layout.turn(drives.front().read.grid.bodyLevel().mount());
-  return drives;
+    readBag(options.bags.of(path, gaps), options.settings.common, layout, recorded);
+  layout.turn(recorded.bags.front().grid.bodyLevel().mount());
+  return recorded;
 }
 
-void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, const TopicGaps& gaps) {
+void printBags(const BagOptions& options, const std::vector<ReadSamples>& bags, const TopicGaps& gaps) {
   gaps.print();
   printPeriod(options, options.period());
-  for (const VehicleBag& bag : bags) {
-    printReadings(bag.read.grid);
-    for (std::size_t i = 0; i < bag.read.rejected.size(); ++i)
-      printRejected(options.bags.topics[i].name, bag.read.rejected[i]);
+  for (const auto& [grid, rejected] : bags) {
+    printReadings(grid);
+    for (std::size_t i = 0; i < rejected.size(); ++i) printRejected(options.bags.topics[i].name, rejected[i]);
   }
 }
 
@@ -144,14 +142,10 @@ AskedDrives::AskedDrives(const boost::program_options::variables_map& values)
       options(readBagOptions(values)),
       gaps(options.settings.common.shell.input_timeout) {}
 
-void AskedDrives::read() {
-  bags = readDrives(options, gaps);
-  for (VehicleBag& bag : bags) drives.push_back(std::move(bag.drive));
-}
-
 RecordedComparison compareBags(const AskedDrives& asked, const std::function<void(double)>& progress) {
   const AskedVehicle& vehicle = asked.options.vehicle;
-  const SeparatedVehicle own = separateVehicle(asked.drives, vehicle.names, asked.options.period(), asked.models);
+  const SeparatedVehicle own =
+      separateVehicle(asked.recorded.drives, vehicle.names, asked.options.period(), asked.models);
   asked.gaps.explain([&] { requireCoupling(own.coupling); });
   RecordedComparison result{own.coupling, {}};
   for (const std::size_t i : vehicle.asked) {
@@ -179,7 +173,7 @@ VehicleDiagnosis diagnoseBags(const AskedDrives& asked, DiagnoseOptions& searchi
     by_strut[i].horizon_samples = givenHorizon(asked.options, i);
     by_strut[i].model = asked.models[i];
   }
-  VehicleDiagnosis found = diagnoseVehicle(asked.drives, vehicle.names, by_strut, asked.models);
+  VehicleDiagnosis found = diagnoseVehicle(asked.recorded.drives, vehicle.names, by_strut, asked.models);
   asked.gaps.explain([&] { requireOne(found, vehicle); });
   return found;
 }
@@ -199,7 +193,7 @@ std::vector<std::string> changesOf(const AskedDrives& asked) {
   std::vector<std::string> changes(settings.size());
   if (std::all_of(healthy.begin(), healthy.end(), [](const Baseline& strut) { return strut.isEmpty(); }))
     return changes;
-  const VehicleIdentification found = identifyVehicle(asked.drives, options.vehicle.names, identifying);
+  const VehicleIdentification found = identifyVehicle(asked.recorded.drives, options.vehicle.names, identifying);
   for (std::size_t i = 0; i < changes.size(); ++i)
     changes[i] = describeChange(found.struts[i], healthy[i], settings[i].monitor);
   return changes;

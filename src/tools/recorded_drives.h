@@ -35,21 +35,21 @@ struct ReadSamples {
 ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, VehicleLayout layout,
                         const SampleSinks& take);
 
-/// One bag, read as a drive of a vehicle.
-struct VehicleBag {
+/// Bags, read as drives of a vehicle, one each.
+struct RecordedDrives {
   /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
-  VehicleDrive drive;
-  ReadSamples read;
+  std::vector<VehicleDrive> drives;
+  std::vector<ReadSamples> bags;  ///< what else is known of each
 };
 
-/// Reads bags as drives of the vehicle, one each, as readSamples().
+/// Reads bags as readSamples().
 /// @param options  of readBagOptions(); positions become those in upright axes, if the body's IMU leans in the first
 /// drive.
 /// @param gaps  collects the gaps in all that is read.
-std::vector<VehicleBag> readDrives(BagOptions& options, TopicGaps& gaps);
+RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps);
 
 /// Tells people what bags hold and which topics were silent.
-void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, const TopicGaps& gaps);
+void printBags(const BagOptions& options, const std::vector<ReadSamples>& bags, const TopicGaps& gaps);
 
 /// Tells people the sample period.
 void printPeriod(const BagOptions& options, double period);
@@ -66,15 +66,13 @@ struct AskedDrives {
   /// @throws std::invalid_argument, InputError, TooLittleError  as readModels() and readBagOptions().
   explicit AskedDrives(const boost::program_options::variables_map& values);
 
-  /// Reads the bags.
-  void read();
+  void read() { recorded = readDrives(options, gaps); }
 
   EffectLibrary library;
   KnownModels models;
   BagOptions options;
   TopicGaps gaps;
-  std::vector<VehicleBag> bags;      ///< without their drives, which are:
-  std::vector<VehicleDrive> drives;  ///< one each
+  RecordedDrives recorded;  ///< empty before read()
 };
 
 /// @throws InputError, TooLittleError  in words for people, if a diagnosis or comparison has a shortcoming.
