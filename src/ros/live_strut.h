@@ -71,9 +71,8 @@ class LiveStrut {
 
   const SuspensionMonitor* monitor() const;  // nullptr: none yet
   bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
-  bool onSaveModel(Trigger::Request& request, Trigger::Response& response);
-  bool onSaveBaseline(Trigger::Request& request, Trigger::Response& response);
-  bool onReset(Trigger::Request& request, Trigger::Response& response);
+  std::string saveModel() const;
+  std::string saveBaseline();
   std::optional<MotionScale> motionScaleNow() const;
   void keepBaseline();
 
