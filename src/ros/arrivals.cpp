@@ -14,13 +14,19 @@ constexpr std::size_t kMostOthers = 6;  // topics that a person reads through
 
 }  // namespace
 
-const ros::master::V_TopicInfo& PublishedTopics::now() {
+std::map<std::string, std::string> publishedTopics() {
+  ros::master::V_TopicInfo topics;
+  ros::master::getTopics(topics);
+  std::map<std::string, std::string> types;
+  for (const ros::master::TopicInfo& topic : topics) types[topic.name] = topic.datatype;
+  return types;
+}
+
+const std::map<std::string, std::string>& PublishedTopics::now() {
   const ros::WallTime time = ros::WallTime::now();
   if ((time - asked_).toSec() < kTopicsEvery) return topics_;
   asked_ = time;
-  topics_.clear();
-  ros::master::getTopics(topics_);
-  return topics_;
+  return topics_ = publishedTopics();
 }
 
 void Arrivals::note(const ros::Time& stamp) {
@@ -61,10 +67,9 @@ void Arrivals::describeSilence(PublishedTopics& published, Status& status) const
 std::string Arrivals::whatElseThereIs(PublishedTopics& published) const {
   if ((ros::WallTime::now() - begun_).toSec() < timeout_) return "";
   std::vector<std::string> others;
-  for (const ros::master::TopicInfo& topic : published.now())
-    if (topic.datatype == type_ && topic.name != topic_) others.push_back(topic.name);
+  for (const auto& [topic, type] : published.now())
+    if (type == type_ && topic != topic_) others.push_back(topic);
   if (others.empty()) return "";
-  std::sort(others.begin(), others.end());
   if (others.size() > kMostOthers) {
     others.resize(kMostOthers);
     others.emplace_back("...");

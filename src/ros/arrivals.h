@@ -2,6 +2,7 @@
 
 #include <ros/ros.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -10,16 +11,19 @@
 
 namespace suspension_health_monitor {
 
-/// The topics that anybody publishes, as the master listed them at most half a second ago: all silent sensors of a
-/// report, which is due once a second, ask it once.
+/// Asks the master.
+/// @return the type of every topic that some node publishes, by the topic's name; empty if the master does not answer.
+std::map<std::string, std::string> publishedTopics();
+
+/// publishedTopics() of at most half a second ago: all silent sensors of a report, which is due once a second, ask the
+/// master once.
 class PublishedTopics {
  public:
-  /// @return empty if the master does not answer.
-  const ros::master::V_TopicInfo& now();
+  const std::map<std::string, std::string>& now();
 
  private:
   ros::WallTime asked_;
-  ros::master::V_TopicInfo topics_;
+  std::map<std::string, std::string> topics_;
 };
 
 /// When the messages of one sensor came.
