@@ -3,7 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <suspension_health_monitor/CornerComparison.h>
 
-#include <algorithm>
+#include <array>
 #include <boost/make_shared.hpp>
 
 #include "conversions.h"

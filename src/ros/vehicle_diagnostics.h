@@ -4,8 +4,6 @@
 #include <ros/ros.h>
 #include <suspension_health_monitor/CouplingInUse.h>
 
-#include <array>
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>

@@ -10,7 +10,6 @@
 #include "../ros/vehicle_sensors.h"
 #include "command.h"
 #include "strut_files.h"
-#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
