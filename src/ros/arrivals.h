@@ -30,7 +30,7 @@ class PublishedTopics {
 class Arrivals {
  public:
   /// @param timeout  [s] silence, by the clock and by the wall clock, that is an error.
-  /// @param type  of its messages, as sensor_msgs/Imu: what else has such is named while nothing comes.
+  /// @param type  of its messages, as sensor_msgs/Imu: while nothing comes, other topics of this type are named.
   Arrivals(const std::string& topic, double timeout, const std::string& type)
       : topic_(topic), timeout_(timeout), type_(type), begun_(ros::WallTime::now()) {}
 

@@ -45,7 +45,7 @@ class LiveSettings {
   /// @throws std::invalid_argument  naming option, value and what is allowed.
   PipelineOptions appliedTo(PipelineOptions options) const;
 
-  /// @return every setting at that end of its slider, which has these settings on it.
+  /// @return every setting at that end of its slider, or as it is where it lies beyond.
   LiveSettings lowerEnds() const { return atEnds(&LiveSetting::min, &std::fmin); }
   LiveSettings upperEnds() const { return atEnds(&LiveSetting::max, &std::fmax); }
 
