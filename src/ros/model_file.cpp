@@ -40,10 +40,13 @@ ModelsByStrut readModelsFile(const std::string& path, const EffectLibrary& libra
   });
 }
 
+std::string belowStrut(const std::string& name, const std::string& settings) {
+  return "  " + name + ":\n" + std::regex_replace(settings, std::regex("[^\n]+"), "    $&");
+}
+
 std::string toYaml(const ModelsByStrut& models) {
   std::string text = std::string(kStruts) + ":\n";
-  for (const auto& [name, model] : models)
-    text += "  " + name + ":\n" + std::regex_replace(toYaml(model), std::regex("[^\n]+"), "    $&");
+  for (const auto& [name, model] : models) text += belowStrut(name, toYaml(model));
   return text;
 }
 

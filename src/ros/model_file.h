@@ -16,6 +16,10 @@ StrutModel readModelFile(const std::string& path, const EffectLibrary& library);
 /// Below which a file has something of every strut, `struts: {NAME: {...}}`.
 inline constexpr const char* kStruts = "struts";
 
+/// @param settings  text of YAML.
+/// @return the text of a strut's settings, to stand below kStruts.
+std::string belowStrut(const std::string& name, const std::string& settings);
+
 /// The models of a vehicle's struts, by name.
 using ModelsByStrut = std::map<std::string, StrutModel>;
 

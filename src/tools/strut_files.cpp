@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -58,21 +57,20 @@ std::string head(const std::vector<std::string>& drives, const char* load) {
          "\n# nominal is what health is judged by: keep it if this strut was healthy.\n";
 }
 
-std::string ownSettings(const StrutOfDrive& found, const char* indent) {
+std::string ownSettings(const StrutOfDrive& found) {
   const StrutEstimate& strut = found.strut;
-  std::string text = formatted("%sintegration_horizon: %.6g  # [s]\n%snominal:  # %s\n", indent, found.horizon, indent,
-                               found.by.c_str()) +
-                     formatted("%s  damping_to_mass: %.6g  # +- %.2g 1/s\n", indent, strut.damping_to_mass,
-                               strut.damping_to_mass_stddev) +
-                     formatted("%s  stiffness_to_mass: %.6g  # +- %.2g 1/s^2\n", indent, strut.stiffness_to_mass,
-                               strut.stiffness_to_mass_stddev);
+  std::string text =
+      formatted("integration_horizon: %.6g  # [s]\nnominal:  # %s\n", found.horizon, found.by.c_str()) +
+      formatted("  damping_to_mass: %.6g  # +- %.2g 1/s\n", strut.damping_to_mass, strut.damping_to_mass_stddev) +
+      formatted("  stiffness_to_mass: %.6g  # +- %.2g 1/s^2\n", strut.stiffness_to_mass,
+                strut.stiffness_to_mass_stddev);
   if (!strut.friction || std::abs(strut.friction->force) <= kLikely * strut.friction->stddev) return text;
-  return text + formatted("%s  friction: %.6g  # +- %.2g m/s^2\n%s  friction_gain: %.6g  # [s/m], on that road\n",
-                          indent, strut.friction->force, strut.friction->stddev, indent, strut.friction->damping_gain);
+  return text + formatted("  friction: %.6g  # +- %.2g m/s^2\n  friction_gain: %.6g  # [s/m], on that road\n",
+                          strut.friction->force, strut.friction->stddev, strut.friction->damping_gain);
 }
 
-/// Settings of one strut, or of all, nested and indented.
-std::string nested(const OptionMap& settings, const char* indent) {
+/// @return the settings as YAML, by group.
+std::string nested(const OptionMap& settings) {
   YAML::Node groups(YAML::NodeType::Map);
   for (const auto& [name, value] : settings) {
     const auto* text = std::get_if<std::string>(&value);
@@ -83,11 +81,7 @@ std::string nested(const OptionMap& settings, const char* indent) {
     else
       groups[name.substr(0, slash)][name.substr(slash + 1)] = *text;
   }
-  if (groups.size() == 0) return "";
-  std::istringstream lines(YAML::Dump(groups));
-  std::string result;
-  for (std::string line; std::getline(lines, line);) result += indent + line + '\n';
-  return result;
+  return groups.size() == 0 ? "" : YAML::Dump(groups) + '\n';
 }
 
 /// Without the settings that the identified ones replace.
@@ -147,16 +141,16 @@ std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, bool i
     const auto& [name, strut] = *struts.begin();
     own[name].insert(given.begin(), given.end());
     return head(drives, "For `config:=` of monitor.launch and replay.launch, and `suspension_bag ... --config`.") +
-           ownSettings(strut, "") + nested(othersOf(own[name]), "");
+           ownSettings(strut) + nested(othersOf(own[name]));
   }
   std::string text =
       head(drives, "For `strut_config:=` of vehicle.launch, and `suspension_bag ... --vehicle ... --config`.");
-  text += nested(othersOf(given), "") + "struts:\n";
+  text += nested(othersOf(given)) + "struts:\n";
   for (const auto& [name, strut] : struts) {
-    text += "  " + name + ":\n" + ownSettings(strut, "    ") + nested(othersOf(own[name]), "    ");
+    text += belowStrut(name, ownSettings(strut) + nested(othersOf(own[name])));
     own.erase(name);
   }
-  for (const auto& [name, settings] : own) text += "  " + name + ":\n" + nested(settings, "    ");
+  for (const auto& [name, settings] : own) text += belowStrut(name, nested(settings));
   return text;
 }
 
