@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/setting_groups.h"
-#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {
@@ -31,10 +30,7 @@ ModelsByStrut readModelsFile(const std::string& path, const EffectLibrary& libra
   return takeFile(path, [&](OptionMap& values) {
     ModelsByStrut models;
     for (auto& [name, settings] : takeGroups(values, kStruts))
-      prefixed(name + ": ", [&, &strut = name, &its = settings] {
-        models.emplace(strut, takeModel(its, library));
-        refuseUnknown(its, {});
-      });
+      prefixed(name + ": ", [&, &strut = name, &its = settings] { models.emplace(strut, toModel(its, library)); });
     if (models.empty()) throw std::invalid_argument("struts are missing, must be struts: {NAME: {...}}");
     return models;
   });

@@ -15,7 +15,6 @@
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -111,11 +110,7 @@ KnownModels readModels(const boost::program_options::variables_map& values, cons
   if (values.count(kModel) == 0) return KnownModels(vehicle.names.size());
   const auto path = values[kModel].as<std::string>();
   if (vehicle.isStrutAlone()) return {readModelFile(path, library)};
-  return readByStrut(path, vehicle, [&](OptionMap& settings) {
-    StrutModel model = takeModel(settings, library);
-    refuseUnknown(settings, {});
-    return model;
-  });
+  return readByStrut(path, vehicle, [&](const OptionMap& settings) { return toModel(settings, library); });
 }
 
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
