@@ -75,7 +75,8 @@ class LiveModel {
   std::optional<Diagnosis> diagnosis_;
 };
 
-/// @return the model as a monitor has it now; nothing: its estimate is not valid.
-std::optional<StrutModel> modelOf(const SuspensionMonitor& monitor);
+/// @param monitor  nullptr: there is none.
+/// @return the model as the monitor has it now; nothing: its estimate is not valid.
+std::optional<StrutModel> modelOf(const SuspensionMonitor* monitor);
 
 }  // namespace suspension_health_monitor

@@ -118,7 +118,7 @@ std::optional<MotionScale> LiveStrut::motionScaleNow() const {
 }
 
 std::string LiveStrut::saveModel() const {
-  const std::optional<StrutModel> now = monitor() != nullptr ? modelOf(*monitor()) : std::nullopt;
+  const std::optional<StrutModel> now = modelOf(monitor());
   if (!now) throw std::runtime_error(kNothingToSave);
   model_.save(*now);
   return options_.shell.model_file + ": " + model_.describe();

@@ -49,7 +49,7 @@ void MonitorNodelet::addStruts() {
   StrutHost& host = *this;
   for (std::size_t i = 0; i < options_.struts.size(); ++i) {
     const std::string& name = options_.layout.struts[i].name;
-    prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
+    prefixed(options_.prefix(i), [&] {
       struts_.push_back(std::make_unique<LiveStrut>(host, i, options_, name.empty() ? getName() : name));
     });
   }
@@ -186,7 +186,7 @@ SearchTask MonitorNodelet::samplesFor(double window) {
   task.options.candidates = model.library();
   if (!isAlone()) return task;
   task.options.horizon_samples = pipeline_->strut()->horizonSamples();
-  if (!model.effects().empty()) task.options.model = modelOf(*pipeline_->strut());
+  if (!model.effects().empty()) task.options.model = modelOf(pipeline_->strut());
   return task;
 }
 
@@ -195,7 +195,7 @@ std::optional<CurveTask> MonitorNodelet::curveTask(Stamp last) {
   CurveTask task;
   bool is_known = false;
   for (std::size_t i = 0; i < struts_.size(); ++i) {
-    task.models.push_back(modelOf(*pipeline_->strut(i)));
+    task.models.push_back(modelOf(pipeline_->strut(i)));
     is_known = is_known || task.models.back();
     task.frames.push_back(frameOf(i));
   }

@@ -49,7 +49,7 @@ void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor&
 
 void ReportTopics::changeModel(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
                                const std::string& frame) {
-  const std::optional<StrutModel> now = monitor != nullptr ? modelOf(*monitor) : std::nullopt;
+  const std::optional<StrutModel> now = modelOf(monitor);
   model_has_estimate_ = now.has_value();
   auto message = boost::make_shared<ModelInUse>();
   message->header.frame_id = frame;

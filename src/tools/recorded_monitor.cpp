@@ -31,7 +31,7 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
           },
           false) {
   for (std::size_t i = 0; i < healthy_.size(); ++i) {
-    const LiveModel model = prefixed(options.vehicle.prefix(i, ": ", "struts/"), [&] {
+    const LiveModel model = prefixed(options.settings.prefix(i), [&] {
       return LiveModel(options.settings.struts[i].shell, options.settings.model_of[i]);
     });
     pipeline_.setEffects(model.effects(), model.strutFor(model.effects()), i);

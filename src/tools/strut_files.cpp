@@ -159,7 +159,7 @@ Baseline readHealthy(const std::string& path) {
 HealthyStruts beforehand(HealthyStruts given, const BagOptions& options) {
   given.resize(options.vehicle.names.size());
   for (std::size_t i = 0; i < given.size(); ++i)
-    prefixed(options.vehicle.prefix(i, ": ", "struts/"), [&] {
+    prefixed(options.settings.prefix(i), [&] {
       const PipelineOptions& strut = options.settings.struts[i];
       if (given[i]) return requireOneReference(given[i]->file, strut.monitor);
       if (const LiveBaseline live(strut); live.known()) given[i] = {*live.known(), strut.shell.baseline_file};
