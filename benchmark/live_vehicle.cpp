@@ -194,10 +194,8 @@ void load(nodelet::Loader& loader, const VehicleSimulationOptions& options) {
 }
 
 /// What ROS itself takes to bring the messages to a node.
-std::vector<ros::Subscriber> listen(ros::CallbackQueue& queue, const VehicleSimulationOptions& options) {
+std::vector<ros::Subscriber> listen(ros::NodeHandle node, const VehicleSimulationOptions& options) {
   std::vector<ros::Subscriber> subscribers;
-  ros::NodeHandle node;
-  node.setCallbackQueue(&queue);
   for (const std::string& topic : imuTopics(options))
     subscribers.push_back(node.subscribe<sensor_msgs::Imu>(
         topic, 1000, [](const sensor_msgs::ImuConstPtr&) {}, nullptr, ros::TransportHints().tcpNoDelay()));
@@ -241,7 +239,7 @@ void run(const std::string& mode, char** argv, int seconds, bool one_body_imu) {
   spinner.start();
   if (mode == "bare") {
     const auto thread = MonitorThread::ofThisProcess();
-    const std::vector<ros::Subscriber> subscribers = listen(thread->queue(), options);
+    const std::vector<ros::Subscriber> subscribers = listen(thread->serve(ros::NodeHandle()), options);
     driveOutside(argv, seconds, "drive_bare");
     return;
   }

@@ -10,7 +10,6 @@
 #include "../tools/command.h"
 #include "../tools/strut_files.h"
 #include "bags_call.h"
-#include "options.h"
 
 namespace suspension_health_monitor {
 

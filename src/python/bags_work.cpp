@@ -37,10 +37,10 @@ struct Watched {
   std::vector<Course> courses;
   RecordedMonitor recorded;
 
-  /// @param row  as RecordedMonitor.
-  Watched(const BagOptions& options, const HealthyStruts& healthy, const RecordedMonitor::Row& row, ToolsWork& tools)
+  /// @param keeps_logs  as RecordedMonitor.
+  Watched(const BagOptions& options, const HealthyStruts& healthy, bool keeps_logs, ToolsWork& tools)
       : courses(healthy.size()),
-        recorded(options, healthy, row,
+        recorded(options, healthy, keeps_logs,
                  [this](std::size_t strut, const MonitorReport& report) { courses[strut].add(report); }) {
     tools.tellReading(options.bags.paths.size());
     recorded.read();
@@ -51,7 +51,7 @@ auto identifyBags(const Arguments& arguments, LongWork& work) {
   ToolsWork tools(work, 0);
   const BagOptions options = readBagOptions(parsed(arguments));
   const HealthyStruts healthy = beforehand({}, options);
-  Watched watched(options, healthy, {}, tools);
+  Watched watched(options, healthy, false, tools);
   const VehicleIdentification found = watched.recorded.identified();
   return byStrut(options, [&](std::size_t i) {
     Identification result = Identification::of(found.struts[i], watched.recorded.pipeline(), i, watched.courses[i]);
@@ -69,7 +69,7 @@ auto watchBags(const Arguments& arguments, const std::optional<Baseline>& baseli
   const BagOptions options = readLiveOptions(values);
   const HealthyStruts healthy =
       baseline ? beforehand({HealthyStrut{*baseline, file}}, options) : healthyOf(values, options);
-  const Watched watched(options, healthy, RecordedMonitor::noRows, tools);
+  const Watched watched(options, healthy, true, tools);
   const RecordedMonitor& recorded = watched.recorded;
   return byStrut(options, [&](std::size_t i) {
     return HealthSummary::of(recorded.log(i), recorded.strut(i), recorded.baselineFile(i),

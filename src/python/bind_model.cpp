@@ -1,3 +1,4 @@
+#include "../ros/model_file.h"  // of its folder a file without ROS
 #include "bindings.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
@@ -50,14 +51,8 @@ void bindModel(py::module& module) {
       .add("settings", &settingsOf)
       .def("yaml", py::overload_cast<const StrutModel&>(&toYaml),
            "The text of a model file: for model_file, `--model` and model=.");
-  module.def(
-      "to_model",
-      [](OptionMap settings, const EffectLibrary& library) {
-        StrutModel model = takeModel(settings, library);
-        refuseUnknown(settings, {});
-        return model;
-      },
-      py::arg("settings"), py::arg("library"), "The StrutModel that settings are, by their full names.");
+  module.def("to_model", &toModel, py::arg("settings"), py::arg("library"),
+             "The StrutModel that settings are, by their full names.");
 
   ResultClass<EffectLibrary>(module, "EffectLibrary", "What may be missing from a model: names, laws and findings.")
       .add("effects", &EffectLibrary::describe)

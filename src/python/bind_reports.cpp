@@ -13,37 +13,30 @@ namespace py = pybind11;
 
 namespace {
 
-/// What a baseline is sent as, its friction and its temperature.
-using Numbers = std::array<double, 4>;
-using BaselineState =
-    std::tuple<std::optional<double>, std::optional<double>, double, double, double, double, std::optional<Numbers>,
-               std::optional<std::array<double, 3>>, bool, Stamp::rep, Stamp::rep>;
-
-std::optional<Numbers> toNumbers(const std::optional<DryFriction>& friction) {
-  if (!friction) return std::nullopt;
-  return Numbers{friction->force, friction->stddev, friction->damping_gain, friction->damping_covariance};
-}
-
-std::optional<DryFriction> toFriction(const std::optional<Numbers>& numbers) {
-  if (!numbers) return std::nullopt;
-  return DryFriction{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
-}
+/// What pickle keeps of a baseline; its friction and its temperature are arrays of numbers.
+using BaselineState = std::tuple<std::optional<double>, std::optional<double>, double, double, double, double,
+                                 std::optional<std::array<double, 4>>, std::optional<std::array<double, 3>>, bool,
+                                 Stamp::rep, Stamp::rep>;
 
 BaselineState stateOf(const Baseline& baseline) {
+  std::optional<std::array<double, 4>> friction;
+  if (const auto& known = baseline.friction)
+    friction = {known->force, known->stddev, known->damping_gain, known->damping_covariance};
   std::optional<std::array<double, 3>> temperature;
   if (const auto& known = baseline.temperature)
     temperature = {known->celsius, known->per_kelvin, known->per_kelvin_stddev};
   return BaselineState(baseline.damping_to_mass, baseline.stiffness_to_mass, baseline.damping_to_mass_stddev,
                        baseline.stiffness_to_mass_stddev, baseline.damping_scatter, baseline.stiffness_scatter,
-                       toNumbers(baseline.friction), temperature, baseline.learned, baseline.from.count(),
-                       baseline.to.count());
+                       friction, temperature, baseline.learned, baseline.from.count(), baseline.to.count());
 }
 
 Baseline toBaseline(const BaselineState& state) {
   const auto& [b1, b0, sd1, sd0, scatter1, scatter0, friction, temperature, learned, from, to] = state;
+  std::optional<DryFriction> dry;
+  if (friction) dry = {(*friction)[0], (*friction)[1], (*friction)[2], (*friction)[3]};
   std::optional<DamperTemperature> warm;
   if (temperature) warm = {(*temperature)[0], (*temperature)[1], (*temperature)[2]};
-  return {b1, b0, sd1, sd0, scatter1, scatter0, toFriction(friction), warm, learned, Stamp(from), Stamp(to)};
+  return {b1, b0, sd1, sd0, scatter1, scatter0, dry, warm, learned, Stamp(from), Stamp(to)};
 }
 
 void bindEstimates(py::module& module) {

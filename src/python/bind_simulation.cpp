@@ -3,8 +3,8 @@
 
 #include "../ros/simulator_options.h"  // of its folder a file without ROS
 #include "bindings.h"
+#include "long_work.h"
 #include "options.h"
-#include "readings.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {

@@ -47,8 +47,8 @@ auto arrayOf(const Items& items, const What& what) {
   return array;
 }
 
-/// A class of results in Python, with the fields of result_fields.h. Its attributes cannot be changed; `what` else they
-/// are is said as valueOf() takes it. Their texts are in _core.pyi.
+/// A class of results in Python, with the fields of result_fields.h and the attributes that are added, given as
+/// valueOf() takes them. Attributes cannot be changed. Their texts are in _core.pyi.
 template <class Result>
 class ResultClass : public pybind11::class_<Result> {
  public:

@@ -9,15 +9,16 @@
 
 namespace suspension_health_monitor {
 
-/// Lets one thread at a time at a monitor that calls back into Python: who waits for it has let the interpreter's lock
-/// go, so that the callback of the one inside can have it. The callback may ask, but not push again.
+/// A monitor that calls back into Python and that one thread at a time may use. A thread that waits for it has released
+/// the interpreter's lock, so that the thread inside can take that lock for its callback. The callback may ask, but not
+/// push again.
 template <class Monitor>
 class Locked {
  public:
   template <class... Given>
   explicit Locked(Given&&... given) : monitor_(std::forward<Given>(given)...) {}
 
-  /// @param question  a member of the monitor, or a function of it: what asks, and is over at once.
+  /// @param question  a member of the monitor, or a function of it that returns at once.
   template <class Question>
   auto ask(const Question& question) const {
     const pybind11::gil_scoped_release released;

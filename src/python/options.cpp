@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "suspension_health_monitor/internal/base/text.h"
-
 namespace suspension_health_monitor {
 namespace {
 

@@ -67,7 +67,7 @@ using Recordings = std::vector<Recording>;
 /// @return readings of all.
 std::size_t sizeOf(const Recordings& recordings);
 
-/// @return by how much later all stamps have to be for none to be 0 or less: 0 is the stamp that a driver has not set.
+/// @return what is to be added to all stamps so that none is 0 or less: stamp 0 means that a driver has set none.
 Stamp shiftOf(const Recordings& recordings);
 
 /// @throws std::invalid_argument  if a sample_period is given that is far below the spacing of the stamps.
@@ -77,8 +77,8 @@ void requireFittingPeriod(const Recordings& recordings, const MonitorOptions& op
 /// @throws std::invalid_argument  as requireFittingPeriod(), or if there are too few stamps to tell.
 double periodOf(const Recordings& recordings, const MonitorOptions& options);
 
-/// Calls take(side, stamp, value) with all readings, their stamps so much later, and finish() after every recording,
-/// and tells how much is done.
+/// Calls take(side, stamp + shift, value) with every reading and finish() after every recording, and tells how much is
+/// done.
 template <class Take, class Finish>
 void forEachReading(const Recordings& recordings, Stamp shift, LongWork& work, const Take& take, const Finish& finish) {
   const auto all = static_cast<double>(sizeOf(recordings));

@@ -20,7 +20,7 @@ namespace suspension_health_monitor {
 /// What was known over time, thinned out evenly where a drive is long: for plots.
 class Course {
  public:
-  /// @param shift  that stamps are late by.
+  /// @param shift  that was added to all stamps.
   explicit Course(Stamp shift = {}) : shift_(shift) {}
 
   /// Takes in a report; one without a regression row says nothing.

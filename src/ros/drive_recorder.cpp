@@ -1,7 +1,6 @@
 #include "drive_recorder.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <ros/master.h>
 #include <sensor_msgs/Imu.h>
 #include <suspension_health_monitor/CornerComparison.h>
 #include <suspension_health_monitor/ModelComparison.h>
@@ -12,15 +11,9 @@
 
 #include <sstream>
 
-namespace suspension_health_monitor {
+#include "arrivals.h"
 
-std::map<std::string, std::string> publishedTopics() {
-  ros::master::V_TopicInfo topics;
-  ros::master::getTopics(topics);
-  std::map<std::string, std::string> types;
-  for (const ros::master::TopicInfo& topic : topics) types[topic.name] = topic.datatype;
-  return types;
-}
+namespace suspension_health_monitor {
 
 DriveRecorder::DriveRecorder(const ros::NodeHandle& node, const std::string& path, const std::string& topics)
     : node_(thread_->serve(node)), bag_(path) {

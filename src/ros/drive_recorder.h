@@ -4,7 +4,6 @@
 #include <ros/subscriber.h>
 
 #include <functional>
-#include <map>
 #include <mutex>
 #include <set>
 #include <string>
@@ -14,9 +13,6 @@
 #include "whole_bag.h"
 
 namespace suspension_health_monitor {
-
-/// @return the type of every topic that some node publishes, by the topic's name.
-std::map<std::string, std::string> publishedTopics();
 
 /// Records a simulated drive into a bag that has every message, however fast the drive and however busy the machine.
 ///

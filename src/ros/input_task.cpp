@@ -16,23 +16,19 @@
 namespace suspension_health_monitor {
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
 using ros::message_traits::DataType;
 using Place = VehicleStreams::Place;
 
-constexpr double kShownLag = 0.0005;    // [s] half of the last digit that is shown
-constexpr double kTopicsEvery = 0.5;    // [s]
-constexpr std::size_t kMostOthers = 6;  // topics that a person reads through
 constexpr double kRateTolerance = 0.1;  // share of the expected rate: drivers keep theirs to a few percent
 
-void warn(const std::string& of, Arrivals::Status& status) {
-  if (!of.empty()) status.mergeSummary(DiagnosticStatus::WARN, of);
+void warn(const std::string& of, Status& status) {
+  if (!of.empty()) status.mergeSummary(Status::WARN, of);
 }
 
 /// The rate of one IMU as its stamps tell it.
 /// @param expected_rate  [Hz]; another one is warned of.
 void describeTiming(const StreamClock& clock, const std::string& name, const std::optional<double>& expected_rate,
-                    Arrivals::Status& status) {
+                    Status& status) {
   const double rate = clock.period() > 0.0 ? 1.0 / clock.period() : 0.0;
   status.addf(name + " rate [Hz]", "%.4g", rate);
   status.addf(name + " jitter [s]", "%.3g", clock.jitter());
@@ -43,8 +39,7 @@ void describeTiming(const StreamClock& clock, const std::string& name, const std
 
 /// Adds the counts of readings that were kept out, as "OF rejected REASON", and warns of those that came since
 /// `before`.
-void describeRejected(const RejectCounts& rejected, const std::string& of, RejectCounts& before,
-                      Arrivals::Status& status) {
+void describeRejected(const RejectCounts& rejected, const std::string& of, RejectCounts& before, Status& status) {
   std::vector<std::string> newly;
   for (std::size_t i = 0; i < kRejectReasonNames.size(); ++i) {
     const auto reason = static_cast<RejectReason>(i);
@@ -57,64 +52,6 @@ void describeRejected(const RejectCounts& rejected, const std::string& of, Rejec
 }
 
 }  // namespace
-
-const ros::master::V_TopicInfo& PublishedTopics::now() {
-  const ros::WallTime time = ros::WallTime::now();
-  if ((time - asked_).toSec() < kTopicsEvery) return topics_;
-  asked_ = time;
-  topics_.clear();
-  ros::master::getTopics(topics_);
-  return topics_;
-}
-
-void Arrivals::note(const ros::Time& stamp) {
-  if (!last_) last_ = Last{};
-  last_->by_clock = ros::Time::now();
-  last_->by_wall = ros::WallTime::now();
-  last_->lag.add(last_->by_clock.toSec() - stamp.toSec());
-}
-
-void Arrivals::describeLag(const std::string& name, const std::optional<double>& max_lag, Status& status) const {
-  if (!last_) return;
-  const double lag = last_->lag.mean();
-  status.addf(name + " lag [s]", "%.3f", std::max(lag, 0.0));
-  // Stamps ahead of the clock are normal in a simulation, by as much as its clock ticks more coarsely than its sensors
-  // read. On a robot they mean that the clocks are not synchronised.
-  if (lag <= -kShownLag) status.addf(name + " ahead of the clock [s]", "%.3f", -lag);
-  if (max_lag && lag > *max_lag) warn(formatted("%s IMU is %.3g s late", name.c_str(), lag), status);
-}
-
-bool Arrivals::isSilentByWall() const { return last_ && (ros::WallTime::now() - last_->by_wall).toSec() > timeout_; }
-
-// A sensor counts as silent when it is so by the clock that stamps the data and by the wall clock. The first alone
-// stands still while a simulation is paused; the second alone would call a replay silent that is slower than life.
-void Arrivals::describeSilence(PublishedTopics& published, Status& status) const {
-  if (!last_) {
-    status.mergeSummary(DiagnosticStatus::ERROR, "no message yet on " + topic_ + whatElseThereIs(published));
-    return;
-  }
-  const double by_wall = (ros::WallTime::now() - last_->by_wall).toSec();
-  const double by_clock = ros::Time::now().toSec() - last_->by_clock.toSec();
-  const bool clock_went_back = by_clock < 0.0;
-  if (by_wall > timeout_ && (by_clock > timeout_ || clock_went_back))
-    status.mergeSummaryf(DiagnosticStatus::ERROR, "no message on %s for %.1f s", topic_.c_str(),
-                         clock_went_back ? by_wall : by_clock);
-}
-
-// Somebody has mistyped a name, or forgotten to remap it.
-std::string Arrivals::whatElseThereIs(PublishedTopics& published) const {
-  if ((ros::WallTime::now() - begun_).toSec() < timeout_) return "";
-  std::vector<std::string> others;
-  for (const ros::master::TopicInfo& topic : published.now())
-    if (topic.datatype == type_ && topic.name != topic_) others.push_back(topic.name);
-  if (others.empty()) return "";
-  std::sort(others.begin(), others.end());
-  if (others.size() > kMostOthers) {
-    others.resize(kMostOthers);
-    others.emplace_back("...");
-  }
-  return " (" + type_ + " is on " + join(others, ", ") + ")";
-}
 
 InputTask::InputTask(const VehicleOptions& options, const VehicleStreams& streams,
                      const std::vector<std::string>& topics)
@@ -172,19 +109,19 @@ void InputTask::describeStrut(std::size_t strut, const MessagePipeline* pipeline
 
 void InputTask::summarize(const Sensors& sensors, const MessagePipeline* pipeline, const std::string& missing,
                           Status& status) const {
-  if (pipeline == nullptr) return status.summary(DiagnosticStatus::ERROR, missing);
+  if (pipeline == nullptr) return status.summary(Status::ERROR, missing);
   const auto isSilent = [this](std::size_t sensor) { return sensors_[sensor].arrivals.isSilentByWall(); };
   const bool stands_still = ros::Time::isSimTime() && clock_ == ros::Time::now();
   const SuspensionMonitor* monitor = pipeline->strut();
   const bool any_usable = monitor != nullptr && monitor->input().samples > 0;
   if (is_alone_ && !any_usable && pipeline->rejected().total() > 0)
-    status.summary(DiagnosticStatus::WARN, "no usable pair of readings yet");
+    status.summary(Status::WARN, "no usable pair of readings yet");
   else if (pipeline->monitor() == nullptr)
-    status.summary(DiagnosticStatus::OK, kMeasuringPeriod);
+    status.summary(Status::OK, kMeasuringPeriod);
   else if (stands_still && std::all_of(sensors.begin(), sensors.end(), isSilent))
-    status.summary(DiagnosticStatus::OK, "nothing arrives at present");
+    status.summary(Status::OK, "nothing arrives at present");
   else
-    status.summary(DiagnosticStatus::OK, is_alone_ ? "both IMUs arrive as expected" : "all sensors arrive as expected");
+    status.summary(Status::OK, is_alone_ ? "both IMUs arrive as expected" : "all sensors arrive as expected");
 }
 
 void InputTask::describeSeries(const MessagePipeline& pipeline, Status& status) {
@@ -229,7 +166,7 @@ void InputTask::describeSensors(const Sensors& sensors, const MessagePipeline& p
   describeRejected(pipeline.rejected(), "", before.front(), status);
   for (const std::size_t sensor : sensors)
     if (const std::string& frame = pipeline.missingTransform(sensor); !frame.empty())
-      status.mergeSummary(DiagnosticStatus::ERROR,
+      status.mergeSummary(Status::ERROR,
                           "no static transform from " + frame + " to target_frame " + target_frame_ + " (/tf_static)");
 }
 
@@ -240,8 +177,7 @@ void InputTask::describeMounts(const MessagePipeline& pipeline, Status& status) 
 }
 
 void InputTask::describeSilence(const Sensors& sensors, Status& status) {
-  if (!refusal_.empty())
-    return status.mergeSummary(DiagnosticStatus::ERROR, "stopped listening until reset: " + refusal_);
+  if (!refusal_.empty()) return status.mergeSummary(Status::ERROR, "stopped listening until reset: " + refusal_);
   for (const std::size_t sensor : sensors) sensors_[sensor].arrivals.describeSilence(published_, status);
 }
 
@@ -249,7 +185,7 @@ void InputTask::describeClock(Status& status) {
   if (!ros::Time::isSimTime()) return;
   const ros::Time now = ros::Time::now();
   if (now.isZero())
-    status.mergeSummary(DiagnosticStatus::ERROR, "use_sim_time is set, but nothing comes on /clock");
+    status.mergeSummary(Status::ERROR, "use_sim_time is set, but nothing comes on /clock");
   else if (clock_ == now)
     status.summary(static_cast<unsigned char>(status.level), status.message + "; the clock stands still");
   clock_ = now;

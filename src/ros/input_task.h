@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
 #include <cstddef>
@@ -9,68 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "arrivals.h"
 #include "message_pipeline.h"
-#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/signal/stream_silence.h"
+#include "task_log.h"
 #include "vehicle_options.h"
 
 namespace suspension_health_monitor {
-
-/// The topics that anybody publishes, as the master listed them at most half a second ago: all silent sensors of a
-/// report, which is due once a second, ask it once.
-class PublishedTopics {
- public:
-  /// @return empty if the master does not answer.
-  const ros::master::V_TopicInfo& now();
-
- private:
-  ros::WallTime asked_;
-  ros::master::V_TopicInfo topics_;
-};
-
-/// When the messages of one sensor came.
-class Arrivals {
- public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
-  /// @param timeout  [s] silence, by the clock and by the wall clock, that is an error.
-  /// @param type  of its messages, as sensor_msgs/Imu: what else has such is named while nothing comes.
-  Arrivals(const std::string& topic, double timeout, const std::string& type)
-      : topic_(topic), timeout_(timeout), type_(type), begun_(ros::WallTime::now()) {}
-
-  void note(const ros::Time& stamp);
-
-  /// @param name  of the sensor.  @param max_lag  [s] mean time of arrival - stamp that is warned of.
-  void describeLag(const std::string& name, const std::optional<double>& max_lag, Status& status) const;
-
-  /// @return true if messages have come and no longer do.
-  bool isSilentByWall() const;
-
-  void describeSilence(PublishedTopics& published, Status& status) const;
-
- private:
-  struct Last {
-    ros::Time by_clock;
-    ros::WallTime by_wall;
-    RunningMean lag{0.99};
-  };
-
-  std::string whatElseThereIs(PublishedTopics& published) const;
-
-  std::string topic_;
-  double timeout_;
-  std::string type_;
-  ros::WallTime begun_;
-  std::optional<Last> last_;
-};
 
 /// The task Input of /diagnostics, of a vehicle and of each of its struts: which sensor is silent or late, how its
 /// readings come onto the grid, and which were kept out. Sensors are named by their topics, those of a strut alone by
 /// their place. Counters run from the start or the last reset; a warning is about what came since the last report.
 class InputTask {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// @param topics  by VehicleStreams::sensors.
   InputTask(const VehicleOptions& options, const VehicleStreams& streams, const std::vector<std::string>& topics);
 

@@ -181,4 +181,10 @@ void LiveModel::save(StrutModel model) const {
   TextFile(model_file_).commit(toYaml(all));
 }
 
+std::optional<StrutModel> modelOf(const SuspensionMonitor* monitor) {
+  if (monitor == nullptr || !monitor->modelEstimate().valid()) return std::nullopt;
+  const StrutEstimate& estimate = monitor->modelEstimate();
+  return StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor->effects(), {}};
+}
+
 }  // namespace suspension_health_monitor

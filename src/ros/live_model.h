@@ -8,6 +8,7 @@
 
 #include "shell_options.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 #include "suspension_health_monitor/internal/record/motion_scale.h"
 
 namespace suspension_health_monitor {
@@ -73,5 +74,9 @@ class LiveModel {
   std::vector<ActiveEffect> effects_;
   std::optional<Diagnosis> diagnosis_;
 };
+
+/// @param monitor  nullptr: there is none.
+/// @return the model as the monitor has it now; nothing: its estimate is not valid.
+std::optional<StrutModel> modelOf(const SuspensionMonitor* monitor);
 
 }  // namespace suspension_health_monitor

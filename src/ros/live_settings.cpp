@@ -28,15 +28,6 @@ std::vector<Bound> bindLive(PipelineOptions& options) {
   return live;
 }
 
-double least(double a, double b) { return std::min(a, b); }
-double most(double a, double b) { return std::max(a, b); }
-
-/// Moves a value to the end of its slider, unless it is beyond.
-void extend(OptionValue& value, double end, double (*beyond)(double, double)) {
-  if (auto* whole = std::get_if<int>(&value)) *whole = static_cast<int>(beyond(*whole, end));
-  if (auto* number = std::get_if<double>(&value)) *number = beyond(*number, end);
-}
-
 /// Names of the groups in the order of the options, each once.
 std::vector<std::string> groupsOf(const std::vector<Bound>& live) {
   std::vector<std::string> groups;
@@ -47,9 +38,6 @@ std::vector<std::string> groupsOf(const std::vector<Bound>& live) {
 
 /// The top of the groups, as the generator would have it: it holds the others, and no setting.
 constexpr const char* kTop = "Default";
-
-bool isWhole(const Bound& option) { return std::holds_alternative<int*>(option.member); }
-
 }  // namespace
 
 LiveSettings::LiveSettings(PipelineOptions options) {
@@ -57,17 +45,13 @@ LiveSettings::LiveSettings(PipelineOptions options) {
   for (const Bound& option : bindLive(options)) values_[std::string(option.name)] = *option_table::valueOf(option);
 }
 
-LiveSettings LiveSettings::lowerEnds() const {
+LiveSettings LiveSettings::atEnds(double LiveSetting::*end, double (*beyond)(double, double)) const {
   LiveSettings settings = *this;
-  for (const LiveSetting& setting : kLiveSettings)
-    extend(settings.values_[std::string(setting.name)], setting.min, least);
-  return settings;
-}
-
-LiveSettings LiveSettings::upperEnds() const {
-  LiveSettings settings = *this;
-  for (const LiveSetting& setting : kLiveSettings)
-    extend(settings.values_[std::string(setting.name)], setting.max, most);
+  for (const LiveSetting& setting : kLiveSettings) {
+    OptionValue& value = settings.values_[std::string(setting.name)];
+    if (auto* whole = std::get_if<int>(&value)) *whole = static_cast<int>(beyond(*whole, setting.*end));
+    if (auto* number = std::get_if<double>(&value)) *number = beyond(*number, setting.*end);
+  }
   return settings;
 }
 
@@ -99,7 +83,7 @@ dynamic_reconfigure::ConfigDescription LiveSettings::__getDescriptionMessage__()
       if (option.group != name) continue;
       dynamic_reconfigure::ParamDescription parameter;
       parameter.name = std::string(option.name);
-      parameter.type = isWhole(option) ? "int" : "double";
+      parameter.type = std::holds_alternative<int*>(option.member) ? "int" : "double";
       parameter.description = '[' + std::string(option.unit) + "] " + std::string(option.help);
       group.parameters.push_back(std::move(parameter));
     }

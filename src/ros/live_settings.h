@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "shell_options.h"
@@ -44,9 +45,9 @@ class LiveSettings {
   /// @throws std::invalid_argument  naming option, value and what is allowed.
   PipelineOptions appliedTo(PipelineOptions options) const;
 
-  /// @return every setting at that end of its slider, which has these settings on it.
-  LiveSettings lowerEnds() const;
-  LiveSettings upperEnds() const;
+  /// @return every setting at that end of its slider, or as it is where it lies beyond.
+  LiveSettings lowerEnds() const { return atEnds(&LiveSetting::min, &std::fmin); }
+  LiveSettings upperEnds() const { return atEnds(&LiveSetting::max, &std::fmax); }
 
   // The names that dynamic_reconfigure::Server calls.
   static dynamic_reconfigure::ConfigDescription __getDescriptionMessage__();
@@ -65,6 +66,9 @@ class LiveSettings {
   std::uint32_t __level__(const LiveSettings&) const { return 0; }
 
  private:
+  /// @param beyond  of a setting and the end of its slider the one that is farther out.
+  LiveSettings atEnds(double LiveSetting::*end, double (*beyond)(double, double)) const;
+
   OptionMap values_;  // of kLiveSettings; int or double
 };
 

@@ -55,14 +55,16 @@ ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHan
   updater_.emplace(node, private_node, own.getNamespace());
   updater_->setHardwareID(own.getNamespace().substr(1));
   updater_->add("Input", [this](auto& status) { host_.describeInput(place_, status); });
-  diagnostics_.addTo(*updater_, [this](std::string& why_none) {
-    why_none = host_.whyNoMonitor();
-    return monitor();
-  });
+  diagnostics_.addTo(
+      *updater_, [this] { return monitor(); }, [this] { return host_.whyNoMonitor(); });
+  const auto serve = [&](const char* name, const auto& work) {
+    return own.advertiseService<Trigger::Request, Trigger::Response>(
+        name, [work](Trigger::Request&, Trigger::Response& response) { return answer(response, work); });
+  };
   services_ = {own.advertiseService("set_effects", &LiveStrut::onSetEffects, this),
-               own.advertiseService("save_model", &LiveStrut::onSaveModel, this),
-               own.advertiseService("save_baseline", &LiveStrut::onSaveBaseline, this),
-               own.advertiseService("reset", &LiveStrut::onReset, this)};
+               serve("save_model", [this] { return saveModel(); }),
+               serve("save_baseline", [this] { return saveBaseline(); }),
+               serve("reset", [this] { return host_.reset(); })};
   diagnose_.emplace(own, host_.thread(), [this](double window) { return host_.searchFor(place_, window); });
   return own;
 }
@@ -115,25 +117,17 @@ std::optional<MotionScale> LiveStrut::motionScaleNow() const {
                      estimate.stiffness_to_mass);
 }
 
-bool LiveStrut::onSaveModel(Trigger::Request&, Trigger::Response& response) {
-  return answer(response, [this] {
-    if (monitor() == nullptr || !monitor()->modelEstimate().valid()) throw std::runtime_error(kNothingToSave);
-    const StrutEstimate& estimate = monitor()->modelEstimate();
-    model_.save({estimate.damping_to_mass, estimate.stiffness_to_mass, monitor()->effects(), {}});
-    return options_.shell.model_file + ": " + model_.describe();
-  });
+std::string LiveStrut::saveModel() const {
+  const std::optional<StrutModel> now = modelOf(monitor());
+  if (!now) throw std::runtime_error(kNothingToSave);
+  model_.save(*now);
+  return options_.shell.model_file + ": " + model_.describe();
 }
 
-bool LiveStrut::onSaveBaseline(Trigger::Request&, Trigger::Response& response) {
-  return answer(response, [this] {
-    baseline_.save(monitor());
-    host_.pipeline()->setBaseline(*baseline_.known(), place_);
-    return "health is judged by the strut as it is now; written to " + options_.shell.baseline_file;
-  });
-}
-
-bool LiveStrut::onReset(Trigger::Request&, Trigger::Response& response) {
-  return answer(response, [this] { return host_.reset(); });
+std::string LiveStrut::saveBaseline() {
+  baseline_.save(monitor());
+  host_.pipeline()->setBaseline(*baseline_.known(), place_);
+  return "health is judged by the strut as it is now; written to " + options_.shell.baseline_file;
 }
 
 }  // namespace suspension_health_monitor

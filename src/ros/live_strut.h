@@ -22,8 +22,6 @@ namespace suspension_health_monitor {
 /// The nodelet as its struts see it. Everything is called in its queue.
 class StrutHost {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   virtual ~StrutHost() = default;
   virtual MessagePipeline* pipeline() = 0;                            ///< nullptr: none yet
   virtual std::string whyNoMonitor() = 0;                             ///< why the struts have no monitors
@@ -73,9 +71,8 @@ class LiveStrut {
 
   const SuspensionMonitor* monitor() const;  // nullptr: none yet
   bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
-  bool onSaveModel(Trigger::Request& request, Trigger::Response& response);
-  bool onSaveBaseline(Trigger::Request& request, Trigger::Response& response);
-  bool onReset(Trigger::Request& request, Trigger::Response& response);
+  std::string saveModel() const;
+  std::string saveBaseline();
   std::optional<MotionScale> motionScaleNow() const;
   void keepBaseline();
 

@@ -64,7 +64,7 @@ void MessagePipeline::keep(const VehicleSample& sample) {
   for (std::size_t i = 0; i < recent_.size(); ++i) {
     StrutSample strut{sample.ofStrut(i), {}};
     if (!isUsable(strut.sprung_acceleration) || !isUsable(strut.unsprung_acceleration)) return;
-    if (sample.unfiltered.size() > 0) strut.unfiltered = sample.unfiltered[static_cast<Eigen::Index>(i)];
+    if (sample.unfiltered.size() > 0) strut.unfiltered = sample.unfiltered[i];
     if (recent_body_ && !recent_[i].isNewer(strut)) recent_body_->clear();  // the clock went back
     recent_[i].push(strut);
   }
@@ -82,8 +82,7 @@ VehicleDrive MessagePipeline::newestSamples(double span) const {
   if (!recent_forces_) return drive;
   for (const std::string& name : forces_) drive.forces.push_back({name, {}});
   for (const Forces& forces : recent_forces_->newest(fromSeconds(span)))
-    for (std::size_t k = 0; k < drive.forces.size(); ++k)
-      drive.forces[k].values.push_back(forces.values[static_cast<Eigen::Index>(k)]);
+    for (std::size_t k = 0; k < drive.forces.size(); ++k) drive.forces[k].values.push_back(forces.values[k]);
   return drive;
 }
 

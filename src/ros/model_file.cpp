@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/setting_groups.h"
-#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {
@@ -31,19 +30,19 @@ ModelsByStrut readModelsFile(const std::string& path, const EffectLibrary& libra
   return takeFile(path, [&](OptionMap& values) {
     ModelsByStrut models;
     for (auto& [name, settings] : takeGroups(values, kStruts))
-      prefixed(name + ": ", [&, &strut = name, &its = settings] {
-        models.emplace(strut, takeModel(its, library));
-        refuseUnknown(its, {});
-      });
+      prefixed(name + ": ", [&, &strut = name, &its = settings] { models.emplace(strut, toModel(its, library)); });
     if (models.empty()) throw std::invalid_argument("struts are missing, must be struts: {NAME: {...}}");
     return models;
   });
 }
 
+std::string belowStrut(const std::string& name, const std::string& settings) {
+  return "  " + name + ":\n" + std::regex_replace(settings, std::regex("[^\n]+"), "    $&");
+}
+
 std::string toYaml(const ModelsByStrut& models) {
   std::string text = std::string(kStruts) + ":\n";
-  for (const auto& [name, model] : models)
-    text += "  " + name + ":\n" + std::regex_replace(toYaml(model), std::regex("[^\n]+"), "    $&");
+  for (const auto& [name, model] : models) text += belowStrut(name, toYaml(model));
   return text;
 }
 

@@ -4,9 +4,18 @@
 #include <string>
 
 #include "suspension_health_monitor/effects.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
+
+/// @return the model that settings are, all of them.
+/// @throws std::invalid_argument  as takeModel(), also for a setting that is none of a model.
+inline StrutModel toModel(OptionMap settings, const EffectLibrary& library) {
+  StrutModel model = takeModel(settings, library);
+  refuseUnknown(settings, {});
+  return model;
+}
 
 /// Reads a model as `suspension_bag diagnose -o` writes it (model/model_settings.h).
 /// @param library  what the model may be made of.
@@ -15,6 +24,10 @@ StrutModel readModelFile(const std::string& path, const EffectLibrary& library);
 
 /// Below which a file has something of every strut, `struts: {NAME: {...}}`.
 inline constexpr const char* kStruts = "struts";
+
+/// @param settings  text of YAML.
+/// @return the text of a strut's settings, to stand below kStruts.
+std::string belowStrut(const std::string& name, const std::string& settings);
 
 /// The models of a vehicle's struts, by name.
 using ModelsByStrut = std::map<std::string, StrutModel>;

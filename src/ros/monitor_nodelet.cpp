@@ -49,7 +49,7 @@ void MonitorNodelet::addStruts() {
   StrutHost& host = *this;
   for (std::size_t i = 0; i < options_.struts.size(); ++i) {
     const std::string& name = options_.layout.struts[i].name;
-    prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
+    prefixed(options_.prefix(i), [&] {
       struts_.push_back(std::make_unique<LiveStrut>(host, i, options_, name.empty() ? getName() : name));
     });
   }
@@ -185,11 +185,8 @@ SearchTask MonitorNodelet::samplesFor(double window) {
   const LiveModel& model = struts_.front()->model();
   task.options.candidates = model.library();
   if (!isAlone()) return task;
-  const SuspensionMonitor& monitor = *pipeline_->strut();
-  task.options.horizon_samples = monitor.horizonSamples();
-  const StrutEstimate& estimate = monitor.modelEstimate();
-  if (!model.effects().empty() && estimate.valid())
-    task.options.model = StrutModel{estimate.damping_to_mass, estimate.stiffness_to_mass, monitor.effects(), {}};
+  task.options.horizon_samples = pipeline_->strut()->horizonSamples();
+  if (!model.effects().empty()) task.options.model = modelOf(pipeline_->strut());
   return task;
 }
 
@@ -198,12 +195,8 @@ std::optional<CurveTask> MonitorNodelet::curveTask(Stamp last) {
   CurveTask task;
   bool is_known = false;
   for (std::size_t i = 0; i < struts_.size(); ++i) {
-    const SuspensionMonitor& strut = *pipeline_->strut(i);
-    const StrutEstimate& estimate = strut.modelEstimate();
-    task.models.emplace_back();
-    if (estimate.valid())
-      task.models.back() = {estimate.damping_to_mass, estimate.stiffness_to_mass, strut.effects(), {}};
-    is_known = is_known || estimate.valid();
+    task.models.push_back(modelOf(pipeline_->strut(i)));
+    is_known = is_known || task.models.back();
     task.frames.push_back(frameOf(i));
   }
   const Stamp newest = pipeline_->strut()->report().stamp;

@@ -39,7 +39,9 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   /// nodelet and lives on.
   void onInit() override;
 
-  virtual VehicleOptions optionsFrom(const OptionMap& values) const { return VehicleOptions::ofOneStrut(values); }
+  virtual VehicleOptions optionsFrom(const OptionMap& values) const {
+    return VehicleOptions::ofOneStrut(PipelineOptions::fromValues(values));
+  }
   bool isAlone() const { return options_.isOneStrut(); }
 
   void start(ros::NodeHandle node, ros::NodeHandle private_node);

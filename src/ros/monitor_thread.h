@@ -28,8 +28,6 @@ class MonitorThread {
   MonitorThread(const MonitorThread&) = delete;
   MonitorThread& operator=(const MonitorThread&) = delete;
 
-  ros::CallbackQueue& queue() { return queue_; }
-
   /// @return whether no callback waits or runs: what was published in this process before has been taken in by all whom
   ///         this thread serves, and so has what they published in turn.
   bool isIdle() { return queue_.isEmpty(); }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "conversions.h"
+#include "live_model.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
@@ -48,7 +49,8 @@ void ReportTopics::publish(const MonitorReport& report, const SuspensionMonitor&
 
 void ReportTopics::changeModel(const std::vector<ActiveEffect>& effects, const SuspensionMonitor* monitor,
                                const std::string& frame) {
-  model_has_estimate_ = monitor != nullptr && monitor->modelEstimate().valid();
+  const std::optional<StrutModel> now = modelOf(monitor);
+  model_has_estimate_ = now.has_value();
   auto message = boost::make_shared<ModelInUse>();
   message->header.frame_id = frame;
   if (monitor != nullptr) message->header.stamp = toRosTime(monitor->report().stamp);
@@ -61,11 +63,10 @@ void ReportTopics::changeModel(const std::vector<ActiveEffect>& effects, const S
       message->shapes.push_back(active.shapes[i]);
     }
   }
-  if (model_has_estimate_) {
-    const StrutEstimate& estimate = monitor->modelEstimate();
-    message->damping_to_mass = estimate.damping_to_mass;
-    message->stiffness_to_mass = estimate.stiffness_to_mass;
-    message->yaml = toYaml({estimate.damping_to_mass, estimate.stiffness_to_mass, effects, {}});
+  if (now) {
+    message->damping_to_mass = now->damping_to_mass;
+    message->stiffness_to_mass = now->stiffness_to_mass;
+    message->yaml = toYaml(*now);
   }
   model_.publish(message);
 }

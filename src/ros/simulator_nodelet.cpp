@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "arrivals.h"
 #include "conversions.h"
 #include "parameters.h"
 #include "suspension_health_monitor/internal/base/text.h"

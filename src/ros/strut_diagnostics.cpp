@@ -73,32 +73,29 @@ void DriveSummary::tell(const char* until, void (*say)(const std::string& line))
 
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
-
-void addEstimate(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
-                 const StrutEstimate& estimate) {
+void addEstimate(Status& status, const std::string& name, const StrutEstimate& estimate) {
   status.addf(name + " damping_to_mass [1/s]", "%.4g", estimate.damping_to_mass);
   status.addf(name + " stiffness_to_mass [1/s^2]", "%.5g", estimate.stiffness_to_mass);
   status.addf(name + " explained [%]", "%.1f", 100.0 * estimate.explained);
   status.add(name + " valid", estimate.valid());
 }
 
-void addJudgement(diagnostic_updater::DiagnosticStatusWrapper& status, const std::string& name,
-                  const std::optional<double>& nominal, const std::optional<double>& change) {
+void addJudgement(Status& status, const std::string& name, const std::optional<double>& nominal,
+                  const std::optional<double>& change) {
   if (nominal) status.addf("nominal " + name, "%.5g", *nominal);
   if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
 }
 
 }  // namespace
 
-void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& find) {
+void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& find,
+                             const std::function<std::string()>& why_none) {
   const auto add = [&](const char* task, void (StrutDiagnostics::*describe)(const SuspensionMonitor&, Status&)) {
-    updater.add(task, [this, find, describe](Status& status) {
-      std::string why_none;
-      if (const SuspensionMonitor* monitor = find(why_none))
+    updater.add(task, [this, find, why_none, describe](Status& status) {
+      if (const SuspensionMonitor* monitor = find())
         (this->*describe)(*monitor, status);
       else
-        status.summary(DiagnosticStatus::STALE, join({why_none, describeSilent(silent_())}, "; "));
+        status.summary(Status::STALE, join({why_none(), describeSilent(silent_())}, "; "));
     });
   };
   add("Health", &StrutDiagnostics::describeHealth);
@@ -145,11 +142,11 @@ void StrutDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status&
   if (samples != accepted_.samples || now < accepted_.at) accepted_ = {samples, now};
   const double silent = (now - accepted_.at).toSec();
   if (silent <= input_timeout_) return;
-  status.summary(DiagnosticStatus::STALE, describeNoReading(silent, silent_(), status.message));
+  status.summary(Status::STALE, describeNoReading(silent, silent_(), status.message));
 }
 
 void StrutDiagnostics::describeModel(const SuspensionMonitor& monitor, Status& status) {
-  status.summary(DiagnosticStatus::OK, model_.describe());
+  status.summary(Status::OK, model_.describe());
   const ComparisonReport& comparison = monitor.report().comparison;
   status.addf("rmse [m/s^2]", "%.4g", comparison.rmse);
   status.addf("fit [%]", "%.2f", comparison.fit_percent);
@@ -164,11 +161,11 @@ void StrutDiagnostics::describeDiagnosis(Status& status) const {
   const std::optional<Diagnosis>& diagnosis = model_.diagnosis();
   if (!diagnosis) return;
   if (const std::vector<std::string> missing = model_.missing(); !missing.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, std::string("the last diagnosis ") +
-                                                    (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
-                                                    ", not in the model: " + join(missing, ", "));
+    status.mergeSummary(Status::WARN, std::string("the last diagnosis ") +
+                                          (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
+                                          ", not in the model: " + join(missing, ", "));
   if (diagnosis->verdict == Verdict::kUnexplained)
-    status.mergeSummary(DiagnosticStatus::WARN, "the last diagnosis: something is missing that no effect explains");
+    status.mergeSummary(Status::WARN, "the last diagnosis: something is missing that no effect explains");
   status.add("diagnosed", nameOf(diagnosis->verdict));
   status.add("diagnosed effects", join(diagnosis->selected, ", "));
   status.addf("diagnosed structured share [%]", "%.1f", 100.0 * diagnosis->structured_share);

@@ -53,8 +53,8 @@ class DriveSummary {
 /// What /diagnostics says of one strut, as its monitor sees it: a task each for its health and its model.
 class StrutDiagnostics {
  public:
-  /// @return the strut's monitor; nullptr if there is none yet, and then why.
-  using Find = std::function<const SuspensionMonitor*(std::string& why_none)>;
+  /// @return the strut's monitor; nullptr: there is none yet.
+  using Find = std::function<const SuspensionMonitor*()>;
 
   /// @return topics that the strut needs and that are silent while others go on.
   using FindSilent = std::function<std::vector<std::string>()>;
@@ -69,14 +69,13 @@ class StrutDiagnostics {
         drive_(name, input_timeout) {}
 
   /// Adds the tasks to an updater that does not outlive this object.
-  void addTo(diagnostic_updater::Updater& updater, const Find& find);
+  /// @param why_none  says why there is no monitor.
+  void addTo(diagnostic_updater::Updater& updater, const Find& find, const std::function<std::string()>& why_none);
 
   /// @return true if the level differs from the last one: a change is published at once.
   bool note(const MonitorReport& report);
 
  private:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// When a reading was accepted last, as seen from the reports.
   struct Accepted {
     std::uint64_t samples = 0;

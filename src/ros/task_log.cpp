@@ -11,11 +11,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
-
 ros::console::Level lineOf(unsigned char level) {
-  if (level == DiagnosticStatus::ERROR) return ros::console::levels::Error;
-  return level == DiagnosticStatus::WARN ? ros::console::levels::Warn : ros::console::levels::Info;
+  if (level == Status::ERROR) return ros::console::levels::Error;
+  return level == Status::WARN ? ros::console::levels::Warn : ros::console::levels::Info;
 }
 
 }  // namespace

@@ -8,15 +8,17 @@
 
 namespace suspension_health_monitor {
 
+/// What a task of /diagnostics says.
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
 /// Tells the terminal when the level of a task of /diagnostics changes: once, with the reason.
 class TaskLog {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// @param task  as the lines name it.
-  /// @param least  levels below are reported only as the end of one that was.
-  /// @param lasting  [s] of wall time that a level must last first. Above 0 a new reason of a level from `least` on is
-  ///        reported, too, once it has lasted as long; numbers in it may change.
+  /// @param least  a lower level is reported only when it ends one that was reported.
+  /// @param lasting  [s] a level is reported once it has lasted so long by the wall clock. Above 0 a new reason is
+  ///        reported, too, once it has lasted as long, if the level is `least` or worse; other numbers in the same
+  ///        reason do not make it new.
   explicit TaskLog(const std::string& task, unsigned char least = Status::OK, double lasting = 0.0)
       : task_(task), least_(least), lasting_(lasting) {}
 

@@ -3,7 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <suspension_health_monitor/CornerComparison.h>
 
-#include <algorithm>
+#include <array>
 #include <boost/make_shared.hpp>
 
 #include "conversions.h"
@@ -15,8 +15,6 @@
 
 namespace suspension_health_monitor {
 namespace {
-
-using diagnostic_msgs::DiagnosticStatus;
 
 void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
   const Measured unknown{kUnknown, kUnknown};
@@ -30,7 +28,7 @@ void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
   set(body ? body->y : unknown, msg.centre_of_gravity[1], msg.centre_of_gravity_stddev[1]);
 }
 
-void describeBody(const BodyInertiaResult& found, diagnostic_updater::DiagnosticStatusWrapper& status) {
+void describeBody(const BodyInertiaResult& found, Status& status) {
   const auto add = [&](const char* name, const Measured& number) {
     status.addf(name, "%.4g +- %.2g", number.value, number.stddev);
   };
@@ -111,11 +109,6 @@ CornerComparison toMsg(const CornerComparisonReport& report, Stamp stamp) {
 
 }  // namespace
 
-std::optional<CornerOutput> CornerOutput::of(ros::NodeHandle& node, const std::vector<std::string>& struts) {
-  const std::optional<CornerPlaces> places = cornersAmong(struts);
-  return places ? std::optional(CornerOutput(node, *places)) : std::nullopt;
-}
-
 CornerOutput::CornerOutput(ros::NodeHandle& node, const CornerPlaces& places)
     : places_(places), publisher_(node.advertise<CornerComparison>("corners/comparison", 1, true)) {}
 
@@ -137,7 +130,7 @@ void CornerOutput::publish(const MessagePipeline* pipeline) {
   publisher_.publish(boost::make_shared<const CornerComparison>(toMsg(confirmed_, newest_)));
 }
 
-void CornerOutput::describe(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void CornerOutput::describe(Status& status) const {
   status.summary(static_cast<unsigned char>(confirmed_.level), suspension_health_monitor::describe(confirmed_));
   for (std::size_t i = 0; i < kNumCorners; ++i) {
     const std::string name(kCornerNames[i]);
@@ -161,7 +154,6 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
       diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
       coupling_(private_node.advertise<CouplingInUse>("coupling", 1, true)),
       coupling_log_(name + " coupling"),
-      corners_(CornerOutput::of(node, struts_)),
       updater_(node, private_node, name) {
   updater_.setHardwareID(name.substr(name.find_first_not_of('/')));
   updater_.add("Coupling", [this](Status& status) {
@@ -169,6 +161,7 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
     coupling_log_.note(status);
   });
   updater_.add("Input", describe_input);
+  if (const std::optional<CornerPlaces> places = cornersAmong(struts_)) corners_.emplace(node, *places);
   if (corners_) updater_.add("Corners", [this](Status& status) { corners_->describe(status); });
 }
 
@@ -198,12 +191,12 @@ void VehicleDiagnostics::publishCoupling() {
 void VehicleDiagnostics::describeCoupling(Status& status) const {
   const VehicleCoupling known = coupling();
   if (!known) {
-    status.summary(DiagnosticStatus::STALE, (monitor() != nullptr ? "the drives so far " : "") + known.reason);
+    status.summary(Status::STALE, (monitor() != nullptr ? "the drives so far " : "") + known.reason);
     return;
   }
-  status.summary(DiagnosticStatus::OK, "it is known how the struts move one another");
+  status.summary(Status::OK, "it is known how the struts move one another");
   if (const std::string mistake = describeMistake(*monitor(), struts_); !mistake.empty())
-    status.mergeSummary(DiagnosticStatus::WARN, mistake);
+    status.mergeSummary(Status::WARN, mistake);
   status.addf("model error", "%.2g %%", 100.0 * known.model_error);
   if (struts_.size() > 1) describeBody(inertiaOf(monitor()->body(), placesOf(*monitor())), status);
   for (const AntiRollBarFound& bar : known.bars)

@@ -4,8 +4,6 @@
 #include <ros/ros.h>
 #include <suspension_health_monitor/CouplingInUse.h>
 
-#include <array>
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,20 +22,16 @@ namespace suspension_health_monitor {
 /// The four corners of a vehicle against each other: the latched topic corners/comparison and a task of /diagnostics.
 class CornerOutput {
  public:
-  /// @param struts  the names of all struts.
-  /// @return nothing unless the four corners are among them.
-  static std::optional<CornerOutput> of(ros::NodeHandle& node, const std::vector<std::string>& struts);
+  CornerOutput(ros::NodeHandle& node, const CornerPlaces& places);
 
   /// Judges the corners and publishes the newest verdict that two judgements in a row agreed on.
   /// @param pipeline  nullptr: none yet.
   void publish(const MessagePipeline* pipeline);
 
   /// The task "Corners".
-  void describe(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+  void describe(Status& status) const;
 
  private:
-  CornerOutput(ros::NodeHandle& node, const CornerPlaces& places);
-
   CornerComparisonReport judge(const MessagePipeline* pipeline);
 
   CornerPlaces places_;  // of the corners among the struts
@@ -50,8 +44,6 @@ class CornerOutput {
 /// the struts move one another as the latched topic ~coupling; and corners/comparison.
 class VehicleDiagnostics {
  public:
-  using Status = diagnostic_updater::DiagnosticStatusWrapper;
-
   /// @param placement  outlives this object.
   VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
                      const VehicleOptions& options, const VehiclePlacement& placement,

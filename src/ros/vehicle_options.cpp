@@ -82,8 +82,7 @@ void dropNominalOfIncompleteModels(VehicleOptions& options) {
     PipelineOptions& strut = options.struts[i];
     auto &damping = strut.monitor.nominal_damping_to_mass, &stiffness = strut.monitor.nominal_stiffness_to_mass;
     if (strut.shell.model_file.empty() || !(damping || stiffness)) continue;
-    const std::string& name = options.layout.struts[i].name;
-    prefixed(name.empty() ? "" : "struts/" + name + ": ", [&] {
+    prefixed(options.prefix(i), [&] {
       if (!LiveModel(strut.shell, options.model_of[i]).isComplete())
         damping = stiffness = strut.monitor.nominal_friction = strut.monitor.nominal_friction_gain = std::nullopt;
     });

@@ -27,11 +27,15 @@ struct VehicleOptions {
   /// The same with the sensors that were read already; `values` are without `vehicle`.
   static VehicleOptions fromValues(VehicleLayout layout, OptionMap values);
 
-  /// One strut alone: `values` are those of config/monitor.yaml.
-  static VehicleOptions ofOneStrut(const OptionMap& values) { return ofOneStrut(PipelineOptions::fromValues(values)); }
+  /// One strut alone.
   static VehicleOptions ofOneStrut(const PipelineOptions& options);
 
   bool isOneStrut() const { return layout.struts.front().name.empty(); }  ///< alone, not of a vehicle file
+
+  /// @return "struts/NAME: ", for messages about the settings of a strut; empty of one alone.
+  std::string prefix(std::size_t strut) const {
+    return isOneStrut() ? "" : "struts/" + layout.struts[strut].name + ": ";
+  }
   std::vector<std::string> strutNames() const;
   std::vector<std::string> forceNames() const;         ///< of known forces
   std::vector<std::string> temperatureTopics() const;  ///< by strut; empty: it has no thermometer

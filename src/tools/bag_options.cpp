@@ -11,6 +11,7 @@
 #include "../ros/vehicle_sensors.h"
 #include "bag_file.h"
 #include "command.h"
+#include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
@@ -45,14 +46,6 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
     }
   }
   return transforms;
-}
-
-/// @return the bags, with the static transforms if a target_frame wants them.
-ImuBags readBags(const po::variables_map& values, const ShellOptions& options) {
-  ImuBags bags = bagsOf(values);
-  bags.reads_ahead = threadsOf(values) > 1;
-  if (!options.target_frame.empty()) bags.transforms = readStaticTransforms(bags.paths);
-  return bags;
 }
 
 VehicleLayout layoutOfTopics(const po::variables_map& values) {
@@ -177,9 +170,7 @@ OptionMap givenSettings(const po::variables_map& values) {
     settings.insert({std::string("nominal/") + number, settings.at(number)});
     settings.erase(number);
   }
-  for (auto each = settings.begin(); each != settings.end();)
-    each = each->first.rfind("effects/", 0) == 0 || each->first.rfind("readings/", 0) == 0 ? settings.erase(each)
-                                                                                           : std::next(each);
+  for (const char* of_model : {"effects", "readings"}) takePrefixed(settings, of_model);
   return settings;
 }
 
@@ -195,7 +186,9 @@ BagOptions readLiveOptions(const po::variables_map& values) {
     options.settings = VehicleOptions::fromValues(vehicle.layout, givenSettings(values));
   }
   const PipelineOptions& common = options.settings.common;
-  options.bags = readBags(values, common.shell);
+  options.bags = bagsOf(values);
+  options.bags.reads_ahead = threadsOf(values) > 1;
+  if (!common.shell.target_frame.empty()) options.bags.transforms = readStaticTransforms(options.bags.paths);
   findSensors(options.bags, common.shell, vehicle.layout);
   options.bags.temperature_topics = options.settings.temperatureTopics();
   if (vehicle.isStrutAlone())

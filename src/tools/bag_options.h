@@ -28,9 +28,7 @@ struct AskedVehicle {
   bool isStrutAlone() const { return file.empty(); }
 
   /// @return what is written before a strut; nothing where it is alone.
-  std::string prefix(std::size_t strut, const char* after, const char* before = "") const {
-    return isStrutAlone() ? "" : before + names[strut] + after;
-  }
+  std::string prefix(std::size_t strut, const char* after) const { return isStrutAlone() ? "" : names[strut] + after; }
 
   /// @return where a strut's results are among those of the command.
   nlohmann::json& resultsOf(std::size_t strut, nlohmann::json& whole) const {

@@ -58,10 +58,8 @@ CheckedImus::CheckedImus(const ImuBags& bags, const std::vector<BagTopic>& asked
         return true;
       }
       along.clear();
-      const auto turned = [&](const geometry_msgs::Vector3& v) {  // a NaN of one axis stays one of that axis
-        return target_frame.empty() ? std::array<double, 3>{v.x, v.y, v.z} : mounts[topic].turned(v);
-      };
-      const std::array<double, 3> a = turned(message.linear_acceleration), rate = turned(message.angular_velocity);
+      const std::array<double, 3> a = mounts[topic].turned(message.linear_acceleration);
+      const std::array<double, 3> rate = mounts[topic].turned(message.angular_velocity);
       imu.has_gyro =
           imu.has_gyro || (message.angular_velocity_covariance[0] != -1.0 && rate != std::array<double, 3>{});
       SixAxes all = SixAxes::Zero();

@@ -68,8 +68,7 @@ void printMap(const ForceSurface& surface) {
       "\nmissing force: + the strut pushes up harder than the model, - less; ++ -- above %s; . none that is sure\n",
       force(0.5 * largest).c_str());
   for (Eigen::Index j = surface.mean.cols() - 1; j >= 0; --j) {
-    const auto middle =
-        0.5 * (surface.rate_edges[static_cast<std::size_t>(j)] + surface.rate_edges[static_cast<std::size_t>(j) + 1]);
+    const double middle = 0.5 * (surface.rate_edges[j] + surface.rate_edges[j + 1]);
     std::printf("%12s |", rate(middle).c_str());
     for (Eigen::Index i = 0; i < surface.mean.rows(); ++i) {
       const double mean = surface.mean(i, j);
@@ -131,7 +130,7 @@ void compare(const Arguments& arguments) {
   Progress progress("comparing", 1.0);
   const RecordedComparison found = compareBags(asked, [&](double share) { progress.update(share); });
   progress.clear();
-  printBags(asked.options, asked.bags, asked.gaps);
+  printBags(asked.options, asked.recorded.bags, asked.gaps);
   printCoupling(found.coupling, vehicle.names);
   nlohmann::json whole = wholeJson(vehicle, found.coupling, asked.gaps);
   for (std::size_t k = 0; k < found.struts.size(); ++k) {

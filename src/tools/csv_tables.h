@@ -15,7 +15,7 @@ namespace suspension_health_monitor {
 class CsvTable {
  public:
   /// @param out  nullptr: no table is wanted.  @param vehicle  outlives this object.  @param columns  names of the
-  /// others.
+  /// columns behind time and strut.
   CsvTable(std::FILE* out, const AskedVehicle& vehicle, const char* columns);
 
   /// @return true if the table has lines of this strut.

@@ -6,7 +6,6 @@
 
 #include "command.h"
 #include "html_page.h"
-#include "json_of.h"
 #include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
@@ -70,7 +69,7 @@ struct OtherDrive {
 OtherDrive readOther(const po::variables_map& values, const std::string& name) {
   try {
     const BagOptions options = readBagOptions(values);
-    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), {});
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), false);
     recorded.read();
     const std::vector<IdentifyResult> struts = recorded.identified().struts;
     return {name, options.settings, struts, curvesOfBags(options, struts)};
@@ -104,9 +103,8 @@ json against(const OtherDrive& other, std::size_t place, const IdentifyResult& n
 
 std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<IdentifyResult>& found) {
   TopicGaps gaps(options.settings.common.shell.input_timeout);
-  std::vector<VehicleDrive> drives;
-  for (VehicleBag& bag : readDrives(options, gaps)) drives.push_back(std::move(bag.drive));
-  const SeparatedVehicle own = separateVehicle(drives, options.vehicle.names, options.period(), {});
+  const SeparatedVehicle own =
+      separateVehicle(readDrives(options, gaps).drives, options.vehicle.names, options.period(), {});
   std::vector<StrutCurves> curves(found.size());
   for (const std::size_t i : options.vehicle.asked) {
     const StrutEstimate& linear = found[i].estimate;
@@ -136,8 +134,6 @@ void printTravel(const TravelStatistics& travel) {
     std::printf("%s at %.3g mm: hit %d times, %s of the time in the last tenth before it or in it\n",
                 stop.effect.c_str(), 1e3 * stop.gap, stop.hits, percent(stop.near).c_str());
 }
-
-nlohmann::json toJson(const TravelStatistics& travel) { return jsonOf(travel); }
 
 std::vector<json> againstOther(po::variables_map values, const std::vector<IdentifyResult>& now,
                                const std::vector<StrutCurves>& curves) {

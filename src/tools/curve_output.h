@@ -29,8 +29,6 @@ void addCurves(const StrutCurves& curves, nlohmann::json& into);
 /// Tells people how far and how fast a strut moves, and how its stops are used; nothing of one that does not move.
 void printTravel(const TravelStatistics& travel);
 
-nlohmann::json toJson(const TravelStatistics& travel);
-
 /// Identifies the bag of --against with all other options as they are, and compares every strut with itself there.
 /// @param now, curves  by strut, of the drives that it is compared with.
 /// @return by strut `bag`, its curves there, `change` in a sentence and, with valid estimates of both, the numbers of

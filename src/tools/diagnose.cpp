@@ -48,8 +48,7 @@ void printFit(const FittedModel& fit) {
 void printSearch(const Diagnosis& found) {
   std::printf("%s\n", found.summary.c_str());
   for (const EffectCost& cost : costsOf(found))
-    std::printf("%s%s%s\n", describe(cost).c_str(), cost.advice.empty() || cost.isHarmless() ? "" : " ",
-                cost.isHarmless() ? "" : cost.advice.c_str());
+    std::printf("%s\n", join({describe(cost), cost.isHarmless() ? "" : cost.advice}, " ").c_str());
   if (!found.remainder.empty()) std::printf("%s\n", found.remainder.c_str());
   for (const std::vector<std::string>& group : found.indistinguishable)
     std::printf("These drives cannot tell apart: %s.\n", join(group, ", ").c_str());
@@ -157,7 +156,7 @@ json tell(const VehicleDiagnosis& found, const AskedDrives& asked, const std::ve
       addCurves(curves, its);
       const TravelStatistics travel = travelStatistics(found.drives[i], strut.model(), asked.options.period());
       printTravel(travel);
-      its["travel"] = toJson(travel);
+      its["travel"] = jsonOf(travel);
     } else {
       std::printf("the drives %s\n", strut.reason.c_str());
       its["reason"] = strut.reason;
@@ -196,14 +195,14 @@ void search(const po::variables_map& values) {
   const VehicleDiagnosis found = diagnoseBags(asked, searching);
   const std::vector<std::string> changes = changesOf(asked);
   progress.clear();
-  printBags(asked.options, asked.bags, asked.gaps);
+  printBags(asked.options, asked.recorded.bags, asked.gaps);
   const json whole = tell(found, asked, changes);
   if (file) file->commit(whole.dump(2) + '\n');
   if (model) model->commit(modelText(found, vehicle));
   const ImuBags& bags = asked.options.bags;
   if (page)
     page->write(found, searching, whole,
-                {fileNames(bags.paths), originOf(values, bags.allTopics()), dataJson(asked.options)});
+                {fileNames(bags.paths), originOf(values, namesOf(bags.topics)), dataJson(asked.options)});
 }
 
 }  // namespace

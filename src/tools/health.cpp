@@ -186,7 +186,7 @@ void watchBags(const po::variables_map& values) {
   const AskedVehicle& vehicle = options.vehicle;
   HealthyStruts healthy = healthyOf(values, options);
   HealthFiles files(values, vehicle);
-  RecordedMonitor recorded(options, std::move(healthy),
+  RecordedMonitor recorded(options, std::move(healthy), true, {},
                            [&](std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
                              files.add(strut, moment, judged_by);
                            });
@@ -204,7 +204,7 @@ void watchBags(const po::variables_map& values) {
   if (files.page)
     files.page->write(healthTemplate(), {{"struts", struts},
                                          {"data", shortened(dataJson(options))},
-                                         {"origin", originOf(values, options.bags.allTopics())}});
+                                         {"origin", originOf(values, namesOf(options.bags.topics))}});
   recorded.printInput();
   for (const std::size_t i : vehicle.asked) {
     std::printf("\n%s", vehicle.prefix(i, ", ").c_str());

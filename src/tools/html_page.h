@@ -22,7 +22,7 @@ class HtmlPage {
   /// @throws std::runtime_error  naming the file, if it cannot be written.
   void write(std::string_view page, const nlohmann::json& findings);
 
-  /// @param page  that is complete.
+  /// @param page  the whole page.
   void write(const std::string& page) { file_.commit(page); }
 
  private:

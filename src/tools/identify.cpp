@@ -33,11 +33,6 @@ struct Files {
     if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
   }
 
-  void commitTables(const json& whole) {
-    if (findings) findings->commit(whole.dump(2) + '\n');
-    if (csv) csv->commit();
-  }
-
   std::optional<TextFile> csv, findings, settings;
   std::optional<HtmlPage> page;
   RowTable rows;
@@ -173,7 +168,7 @@ void identifyBags(const po::variables_map& values) {
   const HealthyStruts healthy = healthyOf(values, options);
   Files files(values, vehicle);
   Digest<MonitorReport> table(kTableLines);
-  RecordedMonitor recorded(options, healthy, {}, [&](std::size_t strut, const MonitorReport& report) {
+  RecordedMonitor recorded(options, healthy, false, [&](std::size_t strut, const MonitorReport& report) {
     files.rows.add(strut, report);
     if (vehicle.only == strut && report.has_row) table.add(report);
   });
@@ -184,10 +179,11 @@ void identifyBags(const po::variables_map& values) {
     found.curves = curvesOfBags(options, found.vehicle.struts);
   found.against = againstOther(values, found.vehicle.struts, found.curves);
   const json whole = toJson(recorded, found);
-  files.commitTables(whole);
+  if (files.findings) files.findings->commit(whole.dump(2) + '\n');
+  if (files.csv) files.csv->commit();
   if (files.page)
     files.page->write(curvesTemplate(), curveFindings(vehicle, whole, join(fileNames(options.bags.paths)),
-                                                      originOf(values, options.bags.allTopics())));
+                                                      originOf(values, namesOf(options.bags.topics))));
   const Nominal nominal(recorded, found.vehicle.struts, options.settings);
   const bool has_settings = files.settings && !nominal.struts.empty();
   if (has_settings) files.settings->commit(nominal.text(values, options));

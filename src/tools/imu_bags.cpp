@@ -222,8 +222,6 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
 
 }  // namespace
 
-std::vector<std::string> ImuBags::allTopics() const { return namesOf(topics); }
-
 std::vector<std::string> ImuBags::neededTopics() const {
   std::vector<std::string> needed;
   for (const BagTopic& topic : topics)

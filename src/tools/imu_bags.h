@@ -39,7 +39,6 @@ struct ImuBags {
   TopicGaps* gaps = nullptr;  ///< takes note of all that is read, if it is given; outlives the reading
   bool reads_ahead = true;    ///< in a second thread
 
-  std::vector<std::string> allTopics() const;  ///< of sensors
   std::vector<std::string> neededTopics() const;
 
   /// @return the same of one bag alone.

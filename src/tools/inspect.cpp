@@ -1,35 +1,21 @@
-#include <array>
-#include <boost/algorithm/string/replace.hpp>
-#include <cstdio>
-#include <ctime>
+#include <cmath>
+#include <cstdlib>
 
 #include "command.h"
 #include "html_page.h"
-#include "json_of.h"
+#include "inspection_output.h"
 #include "long_work.h"
 #include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/free_decay.h"
-#include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 namespace po = boost::program_options;
-using nlohmann::json;
 
 constexpr const char *kWheelMass = "wheel-mass", *kTyreStiffness = "tyre-stiffness", *kBounce = "bounce";  // options
-
-const char* nameOf(InspectionVerdict verdict) {
-  constexpr std::array kNames{"passes", "fails", "cannot tell"};
-  return kNames[static_cast<std::size_t>(verdict)];
-}
-
-const char* nameOf(InspectedQuantity quantity) {
-  constexpr std::array kNames{"damping ratio", "damping imbalance", "stiffness imbalance", "adhesion"};
-  return kNames[static_cast<std::size_t>(quantity)];
-}
 
 /// @return the option's value, or LOW..HIGH.
 /// @throws std::invalid_argument  naming the option and its value.
@@ -85,13 +71,6 @@ std::string doubtOf(const IdentifyResult& found, const std::vector<std::string>&
   return found.isSteady() ? "" : "the strut changed during the drive: drive again";
 }
 
-/// What a command knows of a vehicle, and tells.
-struct Inspected {
-  std::vector<InspectedStrut> struts;
-  double seconds;  ///< of data
-  Inspection result;
-};
-
 /// By the live monitor's blocks, with what they know of the model's error beside.
 std::vector<InspectedStrut> strutsOf(RecordedMonitor& recorded) {
   const VehicleIdentification vehicle = recorded.identified();
@@ -110,123 +89,15 @@ Inspected bounced(BagOptions& options) {
   TopicGaps gaps(options.settings.common.shell.input_timeout);
   std::vector<Drive> drives;
   double seconds = 0.0;
-  const std::vector<VehicleBag> bags = readDrives(options, gaps);
-  for (const VehicleBag& bag : bags) {
-    drives.push_back(bag.drive.struts.front());
+  const RecordedDrives recorded = readDrives(options, gaps);
+  for (const VehicleDrive& drive : recorded.drives) {
+    drives.push_back(drive.struts.front());
     seconds += static_cast<double>(drives.back().samples.size()) * options.period();
   }
   const StrutEstimate found = estimateFromFreeDecays(drives);
   const std::string doubt = found.valid() ? "" : "no free decays: push harder, let go, wait until it rests, ten times";
-  printBags(options, bags, gaps);
+  printBags(options, recorded.bags, gaps);
   return {{{"strut", found, std::nullopt, std::nullopt, doubt}}, seconds, {}};
-}
-
-using Row = std::array<std::string, 6>;
-
-/// @return a line per number, the headings first.
-std::vector<Row> rowsOf(const Inspected& inspected) {
-  std::vector<Row> rows{{"number", "of", "value", "95 % interval", "limit", "verdict"}};
-  for (std::size_t i = 0; i < inspected.struts.size(); ++i) {
-    const InspectedStrut& strut = inspected.struts[i];
-    const ValueRange& range = inspected.result.frequencies[i];
-    const bool is_known = strut.doubt.empty();
-    rows.push_back({"bounce frequency", strut.name,
-                    is_known ? formatted("%.2f Hz", strut.estimate.naturalFrequency()) : "-",
-                    is_known ? formatted("%.2f to %.2f", range.low, range.high) : "-", "-", "-"});
-    if (!strut.wheel) rows.push_back({"adhesion", strut.name, "-", "-", "-", "not asked"});
-  }
-  for (const InspectedNumber& number : inspected.result.numbers) {
-    std::vector<std::string> names;
-    for (const std::size_t i : number.struts) names.push_back(inspected.struts[i].name);
-    const bool is_ratio = number.quantity == InspectedQuantity::kDampingRatio, is_known = !std::isnan(number.value);
-    const double unit = is_ratio ? 1.0 : 100.0;
-    const char* const sign = is_ratio ? "" : " %";
-    const auto cell = [&](double value) { return formatted(is_ratio ? "%.3f" : "%.1f", unit * value); };
-    rows.push_back({nameOf(number.quantity), join(names, " / "), is_known ? cell(number.value) + sign : "-",
-                    is_known ? cell(number.interval.low) + " to " + cell(number.interval.high) + sign : "-",
-                    formatted("%s %.3g%s", names.size() == 2 ? "at most" : "at least", unit * number.limit, sign),
-                    describe(number, inspected.struts, inspected.seconds)});
-  }
-  return rows;
-}
-
-constexpr const char* kNoLegalTest = "This is no replacement of a legal test.";
-
-/// @return the verdict and what fails, or what is not known.
-std::string summaryOf(const Inspected& inspected) {
-  std::vector<std::string> reasons;
-  for (const InspectedNumber& number : inspected.result.numbers)
-    if (number.verdict == inspected.result.verdict && number.verdict != InspectionVerdict::kPasses)
-      reasons.push_back(std::string(nameOf(number.quantity)) + " of " +
-                        inspected.struts[number.weaker.value_or(number.struts.front())].name);
-  const std::string verdict = nameOf(inspected.result.verdict);
-  return reasons.empty() ? verdict : verdict + ": " + join(reasons);
-}
-
-void print(const Inspected& inspected) {
-  const std::vector<Row> rows = rowsOf(inspected);
-  std::array<int, std::tuple_size_v<Row>> widths{};
-  for (const Row& row : rows)
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) widths[i] = std::max(widths[i], static_cast<int>(row[i].size()));
-  std::printf("\n");
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) std::printf("%-*s  ", widths[i], row[i].c_str());
-    std::printf("%s\n", row.back().c_str());
-  }
-  std::printf("\nverdict: %s\n%s\n", summaryOf(inspected).c_str(), kNoLegalTest);
-}
-
-json toJson(const ValueRange& range) { return {range.low, range.high}; }
-
-json toJson(const Inspected& inspected) {
-  json whole{{"verdict", nameOf(inspected.result.verdict)}, {"seconds", inspected.seconds}, {"numbers", json::array()}};
-  for (std::size_t i = 0; i < inspected.struts.size(); ++i)
-    whole["bounce_frequency"][inspected.struts[i].name] = {{"value", inspected.struts[i].estimate.naturalFrequency()},
-                                                           {"interval", toJson(inspected.result.frequencies[i])}};
-  for (const InspectedNumber& number : inspected.result.numbers) {
-    json its{{"quantity", boost::replace_all_copy(std::string(nameOf(number.quantity)), " ", "_")},
-             {"struts", json::array()},
-             {"value", number.value},
-             {"interval", toJson(number.interval)},
-             {"limit", number.limit},
-             {"verdict", nameOf(number.verdict)},
-             {"sentence", describe(number, inspected.struts, inspected.seconds)}};
-    for (const std::size_t i : number.struts) its["struts"].push_back(inspected.struts[i].name);
-    if (number.weaker) its["weaker"] = inspected.struts[*number.weaker].name;
-    whole["numbers"].push_back(std::move(its));
-  }
-  return whole;
-}
-
-std::string escaped(std::string text) {
-  for (const auto& [letter, name] : {std::pair("&", "&amp;"), {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}})
-    boost::replace_all(text, letter, name);
-  return text;
-}
-
-/// @return the page, one sheet of A4 without a script.
-std::string pageOf(const Inspected& inspected, const po::variables_map& values, const BagOptions& options) {
-  std::string lines;
-  const std::vector<Row> rows = rowsOf(inspected);
-  for (const Row& row : rows) {
-    const char* const tag = &row == &rows.front() ? "th" : "td";
-    lines += "<tr>";
-    for (const std::string& cell : row) lines += formatted("<%s>%s</%s>", tag, escaped(cell).c_str(), tag);
-    lines += "</tr>\n";
-  }
-  std::string page(inspectionTemplate());
-  const std::time_t now = std::time(nullptr);
-  std::array<char, 32> date{};
-  std::strftime(date.data(), date.size(), "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
-  for (const auto& [key, value] :
-       {std::pair<const char*, std::string>("@@verdict@@", escaped(summaryOf(inspected))),
-        {"@@source@@", escaped(join(fileNames(options.bags.paths)) + formatted(": %.4g s", inspected.seconds))},
-        {"@@rows@@", lines},
-        {"@@warning@@", kNoLegalTest},
-        {"@@command@@", escaped(values[kCommandLine].as<std::string>())},
-        {"@@made@@", std::string(date.data()) + ", suspension_bag " PACKAGE_VERSION}})
-    boost::replace_first(page, key, value);
-  return page;
 }
 
 void inspectBags(const po::variables_map& values) {
@@ -245,7 +116,7 @@ void inspectBags(const po::variables_map& values) {
   if (by_hand) {
     inspected = bounced(options);
   } else {
-    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), RecordedMonitor::noRows);
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), true);
     recorded.read();
     inspected = {strutsOf(recorded), toSeconds(recorded.log(0).elapsed()), {}};
     recorded.printInput();
@@ -253,8 +124,8 @@ void inspectBags(const po::variables_map& values) {
   for (std::size_t i = 0; i < wheels.size(); ++i) inspected.struts[i].wheel = wheels[i];
   inspected.result = inspect(inspected.struts, limits);
   if (findings) findings->commit(toJson(inspected).dump(2) + '\n');
-  if (page) page->write(pageOf(inspected, values, options));
-  print(inspected);
+  if (page) page->write(pageOf(inspected, values, options.bags.paths));
+  printInspection(inspected);
   printWritten(values, {"json", kReport});
   if (inspected.result.verdict == InspectionVerdict::kFails) throw FailedInspection(summaryOf(inspected));
   if (inspected.result.verdict == InspectionVerdict::kCannotTell) throw TooLittleError(summaryOf(inspected));

@@ -11,8 +11,8 @@
 
 namespace suspension_health_monitor {
 
-/// @return a result by the names of its fields, of matrices the rows, of stamps the seconds, of levels and verdicts the
-/// name; what it does not have is left out.
+/// @return a result as an object with its fields by name, where an empty optional field is left out; a matrix as a list
+/// of rows, a stamp in seconds, a level or verdict by its name.
 template <class Value>
 nlohmann::json jsonOf(const Value& value);
 

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "../ros/shell_options.h"

@@ -10,7 +10,6 @@
 #include "../ros/vehicle_sensors.h"
 #include "command.h"
 #include "strut_files.h"
-#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
@@ -19,9 +18,8 @@
 namespace suspension_health_monitor {
 namespace {
 
-VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout) {
-  VehicleBag read;
-  VehicleDrive& drive = read.drive;
+void readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout, RecordedDrives& into) {
+  VehicleDrive& drive = into.drives.emplace_back();
   drive.struts.resize(layout.struts.size());
   for (const VehicleLayout::KnownForce& force : layout.known_forces) drive.forces.push_back({force.name, {}});
   SampleSinks take;
@@ -31,17 +29,9 @@ VehicleBag readBag(const ImuBags& bag, const PipelineOptions& options, const Veh
   };
   take.body = [&](const BodyMotion& motion) { drive.struts.front().body.push_back(motion); };
   take.take_back = [&] { dropNewest(drive, kSignalTuning.outcomes); };
-  const ReadSamples samples = readSamples(bag, options, layout, take);
-  const VehicleGrid& grid = samples.grid;
+  const VehicleGrid& grid = into.bags.emplace_back(readSamples(bag, options, layout, take)).grid;
   grid.describe(drive);
   drive.places = grid.vehicle().places();
-  read.num_instants = grid.numInstants();
-  read.body_level = grid.bodyLevel();
-  read.alignment = describeAlignment(grid.streams());
-  const VehicleStreams streams(layout);
-  for (std::size_t i = 0; i < samples.rejected.size(); ++i)
-    read.sensors.push_back({streams.sensors[i].topic, samples.rejected[i], grid.missed(i)});
-  return read;
 }
 
 }  // namespace
@@ -85,21 +75,21 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, Veh
   return {std::move(grid), rejected};
 }
 
-std::vector<VehicleBag> readDrives(BagOptions& options, TopicGaps& gaps) {
-  std::vector<VehicleBag> drives;
+RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
+  RecordedDrives recorded;
   VehicleLayout& layout = options.vehicle.layout;
   for (const std::string& path : options.bags.paths)
-    drives.push_back(readBag(options.bags.of(path, gaps), options.settings.common, layout));
-  layout.turn(drives.front().body_level.mount());
-  return drives;
+    readBag(options.bags.of(path, gaps), options.settings.common, layout, recorded);
+  layout.turn(recorded.bags.front().grid.bodyLevel().mount());
+  return recorded;
 }
 
-void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, const TopicGaps& gaps) {
+void printBags(const BagOptions& options, const std::vector<ReadSamples>& bags, const TopicGaps& gaps) {
   gaps.print();
   printPeriod(options, options.period());
-  for (const VehicleBag& bag : bags) {
-    printReadings(bag.num_instants, bag.alignment, bag.body_level);
-    for (const VehicleBag::Sensor& sensor : bag.sensors) printRejected(sensor.topic, sensor.rejected);
+  for (const auto& [grid, rejected] : bags) {
+    printReadings(grid);
+    for (std::size_t i = 0; i < rejected.size(); ++i) printRejected(options.bags.topics[i].name, rejected[i]);
   }
 }
 
@@ -107,9 +97,9 @@ void printPeriod(const BagOptions& options, double period) {
   std::printf("sample period %.6g s%s\n", period, options.period_measured ? " (measured)" : "");
 }
 
-void printReadings(std::uint64_t num_instants, const std::string& alignment, const BodyLevel& level) {
-  std::printf("%" PRIu64 " instants, readings %s\n", num_instants, alignment.c_str());
-  const std::string leans = describe(level);
+void printReadings(const VehicleGrid& grid) {
+  std::printf("%" PRIu64 " instants, readings %s\n", grid.numInstants(), describeAlignment(grid.streams()).c_str());
+  const std::string leans = describe(grid.bodyLevel());
   if (!leans.empty()) std::printf("%s\n", leans.c_str());
 }
 
@@ -124,16 +114,6 @@ std::optional<int> givenHorizon(const BagOptions& options, std::size_t strut) {
   const MonitorOptions& settings = options.settings.struts[strut].monitor;
   if (!settings.integration_horizon) return std::nullopt;
   return MonitorSettings(settings).horizonSamples(options.period());
-}
-
-VehicleDiagnosis searched(const AskedDrives& asked, const DiagnoseOptions& searching) {
-  const AskedVehicle& vehicle = asked.options.vehicle;
-  std::vector<DiagnoseOptions> by_strut(vehicle.names.size(), searching);
-  for (std::size_t i = 0; i < by_strut.size(); ++i) {
-    by_strut[i].horizon_samples = givenHorizon(asked.options, i);
-    by_strut[i].model = asked.models[i];
-  }
-  return diagnoseVehicle(asked.drives, vehicle.names, by_strut, asked.models);
 }
 
 void requireCoupling(const VehicleCoupling& coupling) {
@@ -161,14 +141,10 @@ AskedDrives::AskedDrives(const boost::program_options::variables_map& values)
       options(readBagOptions(values)),
       gaps(options.settings.common.shell.input_timeout) {}
 
-void AskedDrives::read() {
-  bags = readDrives(options, gaps);
-  for (VehicleBag& bag : bags) drives.push_back(std::move(bag.drive));
-}
-
 RecordedComparison compareBags(const AskedDrives& asked, const std::function<void(double)>& progress) {
   const AskedVehicle& vehicle = asked.options.vehicle;
-  const SeparatedVehicle own = separateVehicle(asked.drives, vehicle.names, asked.options.period(), asked.models);
+  const SeparatedVehicle own =
+      separateVehicle(asked.recorded.drives, vehicle.names, asked.options.period(), asked.models);
   asked.gaps.explain([&] { requireCoupling(own.coupling); });
   RecordedComparison result{own.coupling, {}};
   for (const std::size_t i : vehicle.asked) {
@@ -190,8 +166,14 @@ RecordedComparison compareBags(const AskedDrives& asked, const std::function<voi
 VehicleDiagnosis diagnoseBags(const AskedDrives& asked, DiagnoseOptions& searching) {
   searching.sample_period = asked.options.period();
   searching.candidates = asked.library;
-  VehicleDiagnosis found = searched(asked, searching);
-  asked.gaps.explain([&] { requireOne(found, asked.options.vehicle); });
+  const AskedVehicle& vehicle = asked.options.vehicle;
+  std::vector<DiagnoseOptions> by_strut(vehicle.names.size(), searching);
+  for (std::size_t i = 0; i < by_strut.size(); ++i) {
+    by_strut[i].horizon_samples = givenHorizon(asked.options, i);
+    by_strut[i].model = asked.models[i];
+  }
+  VehicleDiagnosis found = diagnoseVehicle(asked.recorded.drives, vehicle.names, by_strut, asked.models);
+  asked.gaps.explain([&] { requireOne(found, vehicle); });
   return found;
 }
 
@@ -210,7 +192,7 @@ std::vector<std::string> changesOf(const AskedDrives& asked) {
   std::vector<std::string> changes(settings.size());
   if (std::all_of(healthy.begin(), healthy.end(), [](const Baseline& strut) { return strut.isEmpty(); }))
     return changes;
-  const VehicleIdentification found = identifyVehicle(asked.drives, options.vehicle.names, identifying);
+  const VehicleIdentification found = identifyVehicle(asked.recorded.drives, options.vehicle.names, identifying);
   for (std::size_t i = 0; i < changes.size(); ++i)
     changes[i] = describeChange(found.struts[i], healthy[i], settings[i].monitor);
   return changes;

@@ -7,7 +7,6 @@
 #include "bag_options.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
-#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_grid.h"
 #include "suspension_health_monitor/vehicle.h"
 
@@ -24,8 +23,9 @@ struct SampleSinks {
 
 /// What came of reading samples.
 struct ReadSamples {
-  VehicleGrid grid;                    ///< after the last reading
-  std::vector<RejectCounts> rejected;  ///< by sensor, wherever it was noticed
+  VehicleGrid grid;  ///< after the last reading: takes no more
+  std::vector<RejectCounts>
+      rejected;  ///< by VehicleStreams::sensors, without that of the road, wherever it was noticed
 };
 
 /// Reads bags as samples of a vehicle: all sensors but that of the road on one grid, the strut tops known by their own
@@ -35,36 +35,27 @@ struct ReadSamples {
 ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, VehicleLayout layout,
                         const SampleSinks& take);
 
-/// One bag, read as a drive of a vehicle.
-struct VehicleBag {
+/// Bags, read as drives of a vehicle, one each.
+struct RecordedDrives {
   /// By VehicleLayout::struts z'' at the strut's top and w'', by VehicleLayout::known_forces the forces.
-  VehicleDrive drive;
-  std::uint64_t num_instants;
-  std::string alignment;  ///< describeAlignment()
-  BodyLevel body_level;
-  /// What became of one sensor's messages.
-  struct Sensor {
-    std::string topic;
-    RejectCounts rejected;
-    std::uint64_t missed;  ///< readings of others and instants that were lost for want of its readings
-  };
-  std::vector<Sensor> sensors;  ///< by VehicleStreams::sensors, without that of the road
+  std::vector<VehicleDrive> drives;
+  std::vector<ReadSamples> bags;  ///< what else is known of each
 };
 
-/// Reads bags as drives of the vehicle, one each, as readSamples().
+/// Reads bags as readSamples().
 /// @param options  of readBagOptions(); positions become those in upright axes, if the body's IMU leans in the first
 /// drive.
 /// @param gaps  collects the gaps in all that is read.
-std::vector<VehicleBag> readDrives(BagOptions& options, TopicGaps& gaps);
+RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps);
 
 /// Tells people what bags hold and which topics were silent.
-void printBags(const BagOptions& options, const std::vector<VehicleBag>& bags, const TopicGaps& gaps);
+void printBags(const BagOptions& options, const std::vector<ReadSamples>& bags, const TopicGaps& gaps);
 
 /// Tells people the sample period.
 void printPeriod(const BagOptions& options, double period);
 
 /// Tells people what the readings became.
-void printReadings(std::uint64_t num_instants, const std::string& alignment, const BodyLevel& level);
+void printReadings(const VehicleGrid& grid);
 
 /// Tells people what became of the messages of a sensor that were kept out.
 void printRejected(const std::string& topic, const RejectCounts& rejected);
@@ -75,15 +66,13 @@ struct AskedDrives {
   /// @throws std::invalid_argument, InputError, TooLittleError  as readModels() and readBagOptions().
   explicit AskedDrives(const boost::program_options::variables_map& values);
 
-  /// Reads the bags.
-  void read();
+  void read() { recorded = readDrives(options, gaps); }
 
   EffectLibrary library;
   KnownModels models;
   BagOptions options;
   TopicGaps gaps;
-  std::vector<VehicleBag> bags;      ///< without their drives, which are:
-  std::vector<VehicleDrive> drives;  ///< one each
+  RecordedDrives recorded;  ///< empty before read()
 };
 
 /// @throws InputError, TooLittleError  in words for people, if a diagnosis or comparison has a shortcoming.

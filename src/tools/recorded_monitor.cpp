@@ -16,11 +16,12 @@
 
 namespace suspension_health_monitor {
 
-RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts healthy, const Row& row, const Report& report)
+RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts healthy, bool keeps_logs,
+                                 const Report& report, const Row& row)
     : options_(options),
       healthy_(std::move(healthy)),
       streams_(options.vehicle.layout),
-      topics_(options.bags.allTopics()),
+      topics_(namesOf(options.bags.topics)),
       gaps_(options.settings.common.shell.input_timeout),
       pipeline_(
           options.settings, streams_, options.bags.transforms.get(),
@@ -30,14 +31,16 @@ RecordedMonitor::RecordedMonitor(const BagOptions& options, HealthyStruts health
           },
           false) {
   for (std::size_t i = 0; i < healthy_.size(); ++i) {
-    const LiveModel model = prefixed(options.vehicle.prefix(i, ": ", "struts/"), [&] {
+    const LiveModel model = prefixed(options.settings.prefix(i), [&] {
       return LiveModel(options.settings.struts[i].shell, options.settings.model_of[i]);
     });
     pipeline_.setEffects(model.effects(), model.strutFor(model.effects()), i);
     if (healthy_[i]) pipeline_.setBaseline(healthy_[i]->baseline, i);
-    if (row)
+    if (keeps_logs)
       logs_.emplace_back(fromSeconds(options.settings.common.shell.input_timeout), options.bags.neededTopics(),
-                         [this, i, row](const HealthMoment& moment) { row(i, moment, pipeline_.baseline(i)); });
+                         [this, i, row](const HealthMoment& moment) {
+                           if (row) row(i, moment, pipeline_.baseline(i));
+                         });
   }
 }
 
@@ -87,7 +90,7 @@ std::string RecordedMonitor::whyTooLittle() const {
 void RecordedMonitor::printInput() const {
   gaps_.print();
   printPeriod(options_, *pipeline_.period());
-  printReadings(pipeline_.grid()->numInstants(), describeAlignment(grid()), pipeline_.grid()->bodyLevel());
+  printReadings(*pipeline_.grid());
   for (std::size_t i = 0; i < topics_.size(); ++i) printRejected(topics_[i], pipeline_.rejected(i));
   for (const std::size_t i : options_.vehicle.asked) {
     const InputStatus& input = strut(i).input();

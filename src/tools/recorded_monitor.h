@@ -15,25 +15,24 @@ namespace suspension_health_monitor {
 /// `health`, on the command line and in Python.
 class RecordedMonitor {
  public:
+  using Report = std::function<void(std::size_t strut, const MonitorReport&)>;
   using Row = std::function<void(std::size_t strut, const HealthMoment&, const Baseline&)>;
-
-  /// For a log that nobody follows.
-  static void noRows(std::size_t, const HealthMoment&, const Baseline&) {}
 
   /// A bag, and the time elapsed when it begins.
   struct Recording {
     std::string name;
     Stamp from;
   };
-  using Report = std::function<void(std::size_t strut, const MonitorReport&)>;
 
   /// Reads the models that the settings name.
   /// @param options  outlive this object.
   /// @param healthy  by strut what it is judged by, if it is known beforehand.
-  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then; empty: no log is kept.
+  /// @param keeps_logs  whether there is a log() of every strut.
   /// @param report  called with every report, if it is given.
+  /// @param row  called as HealthLog calls its sink, with what the strut is judged by then, if it is given.
   /// @throws std::invalid_argument  as LiveModel, naming the strut.
-  RecordedMonitor(const BagOptions& options, HealthyStruts healthy, const Row& row, const Report& report = {});
+  RecordedMonitor(const BagOptions& options, HealthyStruts healthy, bool keeps_logs, const Report& report = {},
+                  const Row& row = {});
   RecordedMonitor(const RecordedMonitor&) = delete;  // its sinks refer to it
   RecordedMonitor& operator=(const RecordedMonitor&) = delete;
 

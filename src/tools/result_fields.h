@@ -9,8 +9,8 @@
 #include "suspension_health_monitor/internal/wording/health_log.h"
 #include "suspension_health_monitor/monitor_report.h"
 
-// The fields of results that users see: keys of JSON and attributes in Python, by the names that they have here. What
-// is computed, and what users know by another name, stands with those who show it.
+// The fields of results that users see: keys of JSON and attributes in Python, by the names that they have here. Values
+// that are computed, and those that users know by another name, are added where they are shown.
 
 namespace shm = suspension_health_monitor;
 

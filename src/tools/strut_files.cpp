@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -17,7 +15,6 @@
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -59,25 +56,20 @@ std::string head(const std::vector<std::string>& drives, const char* load) {
          "\n# nominal is what health is judged by: keep it if this strut was healthy.\n";
 }
 
-std::string ownSettings(const StrutOfDrive& found, const char* indent) {
+std::string ownSettings(const StrutOfDrive& found) {
   const StrutEstimate& strut = found.strut;
-  std::string text = formatted("%sintegration_horizon: %.6g  # [s]\n%snominal:  # %s\n", indent, found.horizon, indent,
-                               found.by.c_str()) +
-                     formatted("%s  damping_to_mass: %.6g  # +- %.2g 1/s\n", indent, strut.damping_to_mass,
-                               strut.damping_to_mass_stddev) +
-                     formatted("%s  stiffness_to_mass: %.6g  # +- %.2g 1/s^2\n", indent, strut.stiffness_to_mass,
-                               strut.stiffness_to_mass_stddev);
+  std::string text =
+      formatted("integration_horizon: %.6g  # [s]\nnominal:  # %s\n", found.horizon, found.by.c_str()) +
+      formatted("  damping_to_mass: %.6g  # +- %.2g 1/s\n", strut.damping_to_mass, strut.damping_to_mass_stddev) +
+      formatted("  stiffness_to_mass: %.6g  # +- %.2g 1/s^2\n", strut.stiffness_to_mass,
+                strut.stiffness_to_mass_stddev);
   if (!strut.friction || std::abs(strut.friction->force) <= kLikely * strut.friction->stddev) return text;
-  return text + formatted("%s  friction: %.6g  # +- %.2g m/s^2\n%s  friction_gain: %.6g  # [s/m], on that road\n",
-                          indent, strut.friction->force, strut.friction->stddev, indent, strut.friction->damping_gain);
+  return text + formatted("  friction: %.6g  # +- %.2g m/s^2\n  friction_gain: %.6g  # [s/m], on that road\n",
+                          strut.friction->force, strut.friction->stddev, strut.friction->damping_gain);
 }
 
-bool isIdentified(const std::string& name) {
-  return name == "integration_horizon" || name == "baseline_file" || name.rfind("nominal/", 0) == 0;
-}
-
-/// Settings of one strut, or of all, nested and indented.
-std::string nested(const OptionMap& settings, const char* indent) {
+/// @return the settings as YAML, by group.
+std::string nested(const OptionMap& settings) {
   YAML::Node groups(YAML::NodeType::Map);
   for (const auto& [name, value] : settings) {
     const auto* text = std::get_if<std::string>(&value);
@@ -88,17 +80,13 @@ std::string nested(const OptionMap& settings, const char* indent) {
     else
       groups[name.substr(0, slash)][name.substr(slash + 1)] = *text;
   }
-  if (groups.size() == 0) return "";
-  std::istringstream lines(YAML::Dump(groups));
-  std::string result;
-  for (std::string line; std::getline(lines, line);) result += indent + line + '\n';
-  return result;
+  return groups.size() == 0 ? "" : YAML::Dump(groups) + '\n';
 }
 
 /// Without the settings that the identified ones replace.
 OptionMap othersOf(OptionMap given) {
-  for (auto entry = given.begin(); entry != given.end();)
-    entry = isIdentified(entry->first) ? given.erase(entry) : std::next(entry);
+  for (const char* name : {"integration_horizon", "baseline_file"}) given.erase(name);
+  takePrefixed(given, "nominal");
   return given;
 }
 
@@ -122,11 +110,7 @@ KnownModels readModels(const boost::program_options::variables_map& values, cons
   if (values.count(kModel) == 0) return KnownModels(vehicle.names.size());
   const auto path = values[kModel].as<std::string>();
   if (vehicle.isStrutAlone()) return {readModelFile(path, library)};
-  return readByStrut(path, vehicle, [&](OptionMap& settings) {
-    StrutModel model = takeModel(settings, library);
-    refuseUnknown(settings, {});
-    return model;
-  });
+  return readByStrut(path, vehicle, [&](const OptionMap& settings) { return toModel(settings, library); });
 }
 
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
@@ -152,16 +136,16 @@ std::string settingsOf(const std::map<std::string, StrutOfDrive>& struts, bool i
     const auto& [name, strut] = *struts.begin();
     own[name].insert(given.begin(), given.end());
     return head(drives, "For `config:=` of monitor.launch and replay.launch, and `suspension_bag ... --config`.") +
-           ownSettings(strut, "") + nested(othersOf(own[name]), "");
+           ownSettings(strut) + nested(othersOf(own[name]));
   }
   std::string text =
       head(drives, "For `strut_config:=` of vehicle.launch, and `suspension_bag ... --vehicle ... --config`.");
-  text += nested(othersOf(given), "") + "struts:\n";
+  text += nested(othersOf(given)) + "struts:\n";
   for (const auto& [name, strut] : struts) {
-    text += "  " + name + ":\n" + ownSettings(strut, "    ") + nested(othersOf(own[name]), "    ");
+    text += belowStrut(name, ownSettings(strut) + nested(othersOf(own[name])));
     own.erase(name);
   }
-  for (const auto& [name, settings] : own) text += "  " + name + ":\n" + nested(settings, "    ");
+  for (const auto& [name, settings] : own) text += belowStrut(name, nested(settings));
   return text;
 }
 
@@ -175,7 +159,7 @@ Baseline readHealthy(const std::string& path) {
 HealthyStruts beforehand(HealthyStruts given, const BagOptions& options) {
   given.resize(options.vehicle.names.size());
   for (std::size_t i = 0; i < given.size(); ++i)
-    prefixed(options.vehicle.prefix(i, ": ", "struts/"), [&] {
+    prefixed(options.settings.prefix(i), [&] {
       const PipelineOptions& strut = options.settings.struts[i];
       if (given[i]) return requireOneReference(given[i]->file, strut.monitor);
       if (const LiveBaseline live(strut); live.known()) given[i] = {*live.known(), strut.shell.baseline_file};

@@ -41,16 +41,16 @@ struct HealthyStrut {
 /// @throws std::invalid_argument  naming the file and what is wrong in it.
 Baseline readHealthy(const std::string& path);
 
-/// By strut what it is judged by, where that is known beforehand; nominal values are among the settings.
+/// For every strut the baseline that is known before the bags are read, if there is one. Nominal values are not here:
+/// they are among the settings.
 using HealthyStruts = std::vector<std::optional<HealthyStrut>>;
 
-/// @param given  beside the settings; of a strut without one, and where it is empty, that of baseline_file counts, if
-/// the file is there.
+/// @param given  by strut, or empty. A strut without one gets that of its baseline_file, if the file is there.
 /// @throws std::invalid_argument  as LiveBaseline, also if nominal values are given beside `given`.
 HealthyStruts beforehand(HealthyStruts given, const BagOptions& options);
 
-/// @return the same with that of --baseline, if it is given. A live monitor would learn one if the file is not there;
-/// that is not what was asked for.
+/// @return beforehand() with what --baseline gives, if it is given. The file must be there, unlike baseline_file of a
+/// live monitor, which learns a baseline where the file is missing.
 /// @throws std::invalid_argument  likewise, and naming the file and what is wrong in it.
 HealthyStruts healthyOf(const boost::program_options::variables_map& values, const BagOptions& options);
 

@@ -48,8 +48,6 @@ int run(const Command& command, const Arguments& arguments) {
     return kDone;
   } catch (const Interrupted& interrupted) {
     return interrupted.endProgram();
-  } catch (const InputError& error) {
-    return fail(command.name, error, kWrongInput);
   } catch (const TooLittleError& error) {
     return fail(command.name, error, kTooLittle);
   } catch (const FailedInspection& failed) {
@@ -60,7 +58,7 @@ int run(const Command& command, const Arguments& arguments) {
     return fail(command.name, std::invalid_argument(error.what() + std::string(", must be a number")), kWrongUsage);
   } catch (const po::error& error) {
     return fail(command.name, error, kWrongUsage);
-  } catch (const std::exception& error) {  // a full disk, a bag that breaks off while it is read
+  } catch (const std::exception& error) {  // InputError, a full disk, a bag that breaks off while it is read
     return fail(command.name, error, kWrongInput);
   }
 }

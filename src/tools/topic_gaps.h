@@ -19,7 +19,7 @@ class TopicGaps {
 
   /// @param topics  whose readings are all needed.
   void beginBag(const std::string& path, const std::vector<std::string>& topics);
-  /// @param topic  its place; others than those of beginBag() are not needed.
+  /// @param topic  its place; a reading of a topic that beginBag() was not given is ignored.
   void note(std::size_t topic, Stamp stamp);
   void finishBag();
 

@@ -15,6 +15,7 @@
 
 #include "ros/vehicle_options.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
+#include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "tools/command.h"
 #include "tools/recorded_drives.h"
 
@@ -112,7 +113,7 @@ void writeDrive(const std::string& path, double seconds, bool with_frame, bool u
 }
 
 /// @param options  whose topics, positions and sample period are found.
-std::vector<VehicleBag> read(BagOptions& options, TopicGaps& gaps) {
+RecordedDrives read(BagOptions& options, TopicGaps& gaps) {
   findSensors(options.bags, options.settings.common.shell, options.vehicle.layout);
   options.settings.common.monitor.sample_period = measurePeriod(options.bags);
   return readDrives(options, gaps);
@@ -128,31 +129,32 @@ TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
     options.bags.paths = {path("one.bag"), path("two.bag")};
     if (upside_down) options.settings.common.shell.sprung_axis = "-z";
     TopicGaps gaps(kTimeout);
-    const std::vector<VehicleBag> drives = read(options, gaps);
+    const auto [drives, bags] = read(options, gaps);
     EXPECT_TRUE(gaps.toJson().empty());
     for (const VehicleLayout::Strut& strut : options.vehicle.layout.struts)
       EXPECT_TRUE(strut.position || !strut.frame) << strut.name;
     EXPECT_NEAR(options.period(), 1.0 / kRate, 1e-6);
     ASSERT_EQ(drives.size(), 2u);
-    EXPECT_EQ(drives[0].alignment, "paired");
-    ASSERT_EQ(drives[0].drive.struts.size(), 3u);
-    ASSERT_EQ(drives[1].drive.struts[0].samples.size(),
+    EXPECT_EQ(describeAlignment(bags[0].grid.streams()), "paired");
+    ASSERT_EQ(drives[0].struts.size(), 3u);
+    ASSERT_EQ(drives[1].struts[0].samples.size(),
               500u - 2 * static_cast<std::size_t>(MotionFilter(std::chrono::milliseconds(10), 1, 1).delay()));
-    for (std::size_t k = 0; k < drives[0].drive.struts[0].samples.size(); ++k) {
-      const double t = toSeconds(drives[0].drive.struts[0].samples[k].stamp) - 1000.0;
+    for (std::size_t k = 0; k < drives[0].struts[0].samples.size(); ++k) {
+      const double t = toSeconds(drives[0].struts[0].samples[k].stamp) - 1000.0;
       const double alpha = kPitch * kTurn * std::cos(kTurn * t), rate = kPitch * std::sin(kTurn * t);
       const std::vector<double> tops{kGravity - 1.2 * alpha, kGravity - 0.5 * alpha - 0.1 * rate * rate,
                                      kGravity + 0.8 * alpha};
       for (int i = 0; i < 3; ++i) {
-        const CornerSample& sample = drives[0].drive.struts[static_cast<std::size_t>(i)].samples[k];
-        ASSERT_EQ(sample.stamp, drives[0].drive.struts[0].samples[k].stamp);
+        const CornerSample& sample = drives[0].struts[static_cast<std::size_t>(i)].samples[k];
+        ASSERT_EQ(sample.stamp, drives[0].struts[0].samples[k].stamp);
         ASSERT_NEAR(sample.sprung_acceleration, tops[static_cast<std::size_t>(i)], 3e-3) << i << " at " << t;
         ASSERT_NEAR(sample.unsprung_acceleration, wheel(i, t), 5e-3) << i << " at " << t;
       }
     }
-    ASSERT_EQ(drives[0].sensors.size(), 5u);
-    for (const VehicleBag::Sensor& imu : drives[0].sensors)
-      EXPECT_EQ(imu.rejected.total() + imu.missed, 0u) << imu.topic;
+    const auto& [grid, rejected] = bags[0];
+    ASSERT_EQ(rejected.size(), 5u);
+    for (std::size_t i = 0; i < rejected.size(); ++i)
+      EXPECT_EQ(rejected[i].total() + grid.missed(i), 0u) << options.bags.topics[i].name;
   }
 }
 
@@ -172,20 +174,20 @@ TEST_F(VehicleBags, HoldKnownForcesOnTheSameGrid) {
   options.vehicle.layout = readVehicleFile(write("vehicle.yaml", kVehicle + forces));
   options.bags.paths = {path("drive.bag")};
   TopicGaps gaps(kTimeout);
-  const VehicleBag bag = read(options, gaps).front();
-  ASSERT_EQ(bag.drive.forces.size(), 2u);
-  EXPECT_EQ(bag.drive.forces[0].name, "lift");
-  EXPECT_EQ(bag.drive.forces[1].name, "turn");
-  const std::vector<CornerSample>& samples = bag.drive.struts[0].samples;
+  const auto [drives, bags] = read(options, gaps);
+  ASSERT_EQ(drives[0].forces.size(), 2u);
+  EXPECT_EQ(drives[0].forces[0].name, "lift");
+  EXPECT_EQ(drives[0].forces[1].name, "turn");
+  const std::vector<CornerSample>& samples = drives[0].struts[0].samples;
   ASSERT_GT(samples.size(), 400u);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const double t = toSeconds(samples[k].stamp) - 1000.0;
-    ASSERT_NEAR(bag.drive.forces[0].values[k], pull(t), 0.5) << t;
-    ASSERT_NEAR(bag.drive.forces[1].values[k], -2.0 * pull(t), 1.0) << t;
+    ASSERT_NEAR(drives[0].forces[0].values[k], pull(t), 0.5) << t;
+    ASSERT_NEAR(drives[0].forces[1].values[k], -2.0 * pull(t), 1.0) << t;
   }
-  ASSERT_EQ(bag.sensors.size(), 6u);
-  EXPECT_EQ(bag.sensors[5].topic, "/tow_bar");
-  EXPECT_EQ(bag.sensors[5].rejected.count(RejectReason::kNotFinite), 1u);
+  ASSERT_EQ(bags[0].rejected.size(), 6u);
+  EXPECT_EQ(options.bags.topics[5].name, "/tow_bar");
+  EXPECT_EQ(bags[0].rejected[5].count(RejectReason::kNotFinite), 1u);
 }
 
 TEST_F(VehicleBags, OfOtherVehiclesAreRefused) {
