@@ -1,7 +1,5 @@
 #pragma once
 
-#include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
-
 namespace suspension_health_monitor {
 
 /// |G(j omega)| of the strut (27) from wheel to body (positions or accelerations alike),
