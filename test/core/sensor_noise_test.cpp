@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/internal/signal/white_level.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
