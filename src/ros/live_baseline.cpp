@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "whole_file.h"
 #include "yaml_settings.h"
 
@@ -102,7 +103,7 @@ Baseline toBaseline(const BaselineSettings& settings) {
 
 // Damage as large as its error threshold must be significant against a baseline: else it could never be proved.
 void checkCertain(const char* name, double value, double stddev, double error) {
-  if (stddev / value * HealthOptions{}.min_significance <= std::log1p(error)) return;
+  if (stddev / value * kCertain <= std::log1p(error)) return;
   throw std::runtime_error(formatted(
       "too uncertain to judge by: %s = %.3g +- %.3g, so that damage of %.3g %% would not be significant; drive "
       "on, or use a rougher road",
