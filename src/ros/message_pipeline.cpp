@@ -31,7 +31,6 @@ MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStr
       streams_(streams),
       mounts_(streams.sensors.size()),
       forces_(options.forceNames()),
-      num_struts_(options.struts.size()),
       kept_span_(options.common.shell.diagnose_window) {}
 
 void MessagePipeline::push(std::size_t sensor, const sensor_msgs::Imu& message) {
@@ -57,9 +56,9 @@ void MessagePipeline::keep(const VehicleSample& sample) {
   if (recent_.empty()) {
     const double kept = std::ceil(kept_span_ / *period()) + 1.0;
     const auto capacity = static_cast<std::size_t>(std::min(kept, kMostKept));
-    recent_.assign(num_struts_, Recent<StrutSample>(capacity));
+    recent_.assign(numStruts(), Recent<StrutSample>(capacity));
     if (!forces_.empty()) recent_forces_.emplace(capacity);
-    if (num_struts_ == 1) recent_body_.emplace(capacity);
+    if (numStruts() == 1) recent_body_.emplace(capacity);
   }
   for (std::size_t i = 0; i < recent_.size(); ++i) {
     StrutSample strut{sample.ofStrut(i), {}};
@@ -72,7 +71,7 @@ void MessagePipeline::keep(const VehicleSample& sample) {
 }
 
 VehicleDrive MessagePipeline::newestSamples(double span) const {
-  VehicleDrive drive{StrutDrives(num_struts_)};
+  VehicleDrive drive{StrutDrives(numStruts())};
   for (std::size_t i = 0; i < recent_.size(); ++i)
     for (const StrutSample& sample : recent_[i].newest(fromSeconds(span))) {
       drive.struts[i].samples.push_back(sample);
@@ -92,7 +91,7 @@ std::optional<MountClaim::Finding> MessagePipeline::mount(std::size_t sensor) co
 
 std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::string>& names) const {
   std::vector<bool> is_inclined(mounts_.size(), false);
-  for (std::size_t i = 0; i < num_struts_; ++i) {
+  for (std::size_t i = 0; i < numStruts(); ++i) {
     if (!streams_.channels.struts[i].sprung) continue;
     const std::size_t top = streams_.bodyImuOf(i), wheel = streams_.wheelImuOf(i);
     const auto a = mount(top), b = mount(wheel);

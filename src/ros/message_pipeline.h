@@ -69,12 +69,12 @@ class MessagePipeline : public VehiclePipeline {
   void keep(const VehicleSample& sample);
 
   std::optional<MountClaim::Finding> mount(std::size_t sensor) const;
+  std::size_t numStruts() const { return streams_.channels.struts.size(); }
 
   VehicleSensors sensors_;
   VehicleStreams streams_;
   std::vector<MountClaim> mounts_;  // by sensor
   std::vector<std::string> forces_;
-  std::size_t num_struts_;
   double kept_span_;                               // [s]
   std::vector<Recent<StrutSample>> recent_;        // by strut, from the first sample on, as are the others
   std::optional<Recent<Forces>> recent_forces_;    // if there are any
