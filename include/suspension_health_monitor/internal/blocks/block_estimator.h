@@ -77,7 +77,7 @@ class BlockEstimator {
   int numBlocks() const { return drive_.blocks() + count_; }  ///< since the start
   void linearise(StrutBlock& block) { equations_.linearise(theta_, block); }
 
-  /// What all blocks told of slow parameters is not believed: it was told without the wheels' noise.
+  /// Forgets what all blocks told of slow parameters, as they told it before the wheels' noise was known.
   void forgetSlow();
 
   /// What is known of a slow parameter from all blocks is so many times as large now, as a neighbour's coefficient is
@@ -98,7 +98,7 @@ class BlockEstimator {
   /// @return true if there are blocks enough for an estimate.
   bool hasBlocks() const { return count_ >= kBlockWindows.front(); }
 
-  /// @return true if the newest blocks alone say nothing of the strut: they do not know it.
+  /// @return true if the newest blocks alone tell nothing of the strut.
   bool newestSayNothing() const { return !(newest_worst_ < kBlockTuning.says_nothing); }
 
   /// Goes on with this estimate, as of blocks of another length.

@@ -17,7 +17,7 @@ struct LogChange {
 };
 
 /// @param range  the smallest and the largest of several changes.
-/// @return what all of them have: the one nearest to none; 0 if they differ in sign.
+/// @return the change that all of them have in common: the smallest in size; 0 if they differ in sign.
 inline double nearestToNone(const std::pair<double, double>& range) {
   return std::clamp(0.0, range.first, range.second);
 }

@@ -55,7 +55,7 @@ class VehicleSpectra {
   std::size_t num_effects_;
   std::vector<FourierIntegrals> streams_;  // of the wheels, the tops with a sensor, the body, the forces, the effects
   std::vector<std::size_t> top_of_;        // by strut, in streams_
-  std::size_t body_ = 0, forces_ = 0;              // likewise; the first one
+  std::size_t body_ = 0, forces_ = 0;      // likewise; the first one
   Eigen::ArrayXcd channel_, derivative_;
 };
 

@@ -15,14 +15,14 @@ namespace suspension_health_monitor {
 /// @return the noise of a vehicle each of whose struts has two accelerometers of its own, all alike.
 SensorNoise noiseOfOwnSensors(std::size_t num_struts);
 
-/// @return the noise as it is known; where it is empty that of own sensors.
+/// @return the noise that is given; if it is empty, that of own sensors.
 SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts);
 
 /// @param gyro_noise  standard deviation of a gyro's noise over that of an accelerometer's [s/m].
 /// @return the noise of a vehicle's sensors behind its StrutTops.
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise);
 
-/// @return in how many struts a wrong reading of one sensor shows, of the sensor that shows in most.
+/// @return the number of struts in which a wrong reading of one sensor shows: that of the sensor which shows in most.
 std::ptrdiff_t mostStrutsOfASensor(const SensorNoise& noise);
 
 /// @return a drive that is nothing but the noise of all sensors, long enough to tell its size within a percent.

@@ -69,8 +69,8 @@ class VehicleClaims {
   /// @pre work() has returned true.
   const VehicleMistake& found() const { return found_; }
 
-  /// @return by strut the relative change of b1 and b0 that a delay makes which explains more, but is too small for a
-  /// clock: links and rubber turn phases so. Nobody knows b1 and b0 better than that.
+  /// @return by strut the relative change of b1 and b0 by a delay that explains more of the motion, but is too small to
+  /// be a clock's: links and rubber turn phases by as much. b1 and b0 are not known better than that.
   const Eigen::ArrayXXd& byLinks() const { return by_links_; }
 
   /// Does all portions.

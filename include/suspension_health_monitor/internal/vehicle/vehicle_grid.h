@@ -18,9 +18,9 @@
 namespace suspension_health_monitor {
 
 /// The readings of all sensors of a vehicle as samples of its struts, the one way for a live vehicle and for bags:
-/// StreamGrid -> StrutTops. Where the body's IMU is needed the first seconds wait until they have told how it is turned
-/// (BodyLevel), while the vehicle neither brakes nor pulls away, or in half a minute. Cost per reading: as StreamGrid,
-/// after these seconds no allocation.
+/// StreamGrid -> StrutTops. Where the body's IMU is needed readings wait until it is known how the IMU is turned
+/// (BodyLevel): for ten seconds in which the vehicle neither brakes nor pulls away, or for half a minute. Cost per
+/// reading: as StreamGrid, after these seconds no allocation.
 class VehicleGrid {
  public:
   using Sink = std::function<void(const VehicleSample&)>;
@@ -61,8 +61,8 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;
 
-  /// @return what the sensors' noise makes of the samples, by what the body's IMU has had of it; while that is not
-  /// known by what is usual. Allocates.
+  /// @return what the sensors' noise makes of the samples. The noise of the body's IMU is the measured one, or the
+  /// usual one until enough was read. Allocates.
   SensorNoise noise() const;
 
   /// Writes down what the samples of a drive have gone through: noise() and the taps of their filter.
