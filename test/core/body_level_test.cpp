@@ -60,6 +60,15 @@ TEST(BodyLevel, SaysNothingOfAnIMUThatTakesGravityOff) {
   }
 }
 
+TEST(BodyLevel, KnowsAnIMUThatReadsInG) {
+  const Matrix3d imu_in_body = turn(30.0, {0.0, 1.0, 0.0});
+  std::vector<Vector3d> readings = drive(imu_in_body);
+  for (Vector3d& reading : readings) reading /= kStandardGravity;
+  const BodyLevel level(readings);
+  EXPECT_NEAR(level.gain(), 1.0 / kStandardGravity, 0.01 / kStandardGravity);
+  EXPECT_NEAR(level.lean(), 30.0 / 180.0 * M_PI, kMedianOff);
+}
+
 TEST(BodyLevel, IsNotMovedByWrongReadings) {
   std::vector<Vector3d> readings = drive(turn(30.0, {0.0, 1.0, 0.0}));
   for (std::size_t k = 0; k < readings.size(); k += 20) readings[k] = Vector3d(1e60, -1e60, 1e9);

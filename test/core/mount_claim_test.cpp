@@ -46,6 +46,11 @@ TEST(MountClaim, TellsLeanAndSizeOfGravityWithTheirMeasure) {
   EXPECT_NE(fault(leaningBy(0.0, 1.25)).find("gain 1.25"), std::string::npos) << fault(leaningBy(0.0, 1.25));
 }
 
+TEST(MountClaim, KnowsAnIMUThatReadsInG) {
+  const std::string said = fault(leaningBy(0.0, 1.0 / kStandardGravity));
+  EXPECT_NE(said.find("it is in g, must be in m/s^2"), std::string::npos) << said;
+}
+
 TEST(MountClaim, NamesTheAxisThatGravityIsOn) {
   EXPECT_EQ(fault(leaningBy(90.0)), "gravity of /imu is on another axis: give unsprung_axis: -y");
   EXPECT_EQ(fault(leaningBy(180.0)), "gravity of /imu is on another axis: give unsprung_axis: -z");

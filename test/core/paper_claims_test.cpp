@@ -1,5 +1,6 @@
 // What the paper claims and what the live defaults promise, over 20 noise seeds. The bounds are the figures of
-// doc/defaults.md (tables small_divisor) with a margin: 20 other seeds change the medians by up to 2 % in b1, 9 % in b0.
+// doc/defaults.md (tables small_divisor) with a margin: 20 other seeds change the medians by up to 2 % in b1, 9 % in
+// b0.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -83,6 +83,42 @@ TEST(VehicleMonitor, TakesWhatAllDampersShareForTheirTemperature) {
   }
 }
 
+// The first judgement of a strut comes before those of the others, and a difference of 20 % needs no confirmation.
+TEST(VehicleMonitor, RaisesNoLevelForDampersThatAreWarmFromTheStart) {
+  constexpr double kWarm = 0.8;
+  std::vector<StrutEstimate> healthy;
+  for (const double softer : {1.0, kWarm}) {
+    Vehicle vehicle = namedVehicle("sedan");
+    for (VehicleStrut& strut : vehicle.struts) {
+      strut.damping_end_fraction = softer;
+      strut.ramp_start = strut.ramp_end = 0.0;
+    }
+    const StrutDrives drive = strutDrives(vehicle, vehicleDrive(60.0));
+    std::array<int, 4> raised{};
+    std::array<HealthReport, 4> last;
+    VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)),
+                           [&](std::size_t strut, const MonitorReport& report) {
+                             const HealthLevel level = report.health.level;
+                             raised[strut] += level == HealthLevel::kWarn || level == HealthLevel::kError ? 1 : 0;
+                             last[strut] = report.health;
+                           });
+    for (std::size_t i = 0; i < healthy.size(); ++i)
+      monitor.setBaseline(i, {healthy[i].damping_to_mass, healthy[i].stiffness_to_mass,
+                              healthy[i].damping_to_mass_stddev, healthy[i].stiffness_to_mass_stddev});
+    for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(raised[i], 0) << i;
+      if (softer == 1.0) {
+        healthy.push_back(monitor.overTheDrive(i));
+        ASSERT_TRUE(healthy.back().valid());
+      } else {
+        ASSERT_TRUE(last[i].shared_damping_change) << i << describe(last[i]);
+        EXPECT_NEAR(*last[i].shared_damping_change, kWarm - 1.0, 0.05);
+      }
+    }
+  }
+}
+
 TEST(VehicleMonitor, OfOneStrutIsASuspensionMonitor) {
   const Vehicle vehicle = namedVehicle("half_sedan");
   const StrutDrives drive = strutDrives(vehicle, vehicleDrive(30.0));

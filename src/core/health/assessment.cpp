@@ -119,6 +119,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   // The same estimate twice is no confirmation of itself, unless it needs none.
   const bool is_judgement = estimate.tellsChanges() && sensor_.fault == SensorFault::kNone;
   const bool is_decisive =
+      !awaits_others_ &&
       std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
                judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) > kDecisive * kCertain;
   if (judges || !is_judgement || is_decisive || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);

@@ -9,9 +9,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-// Tolerance of a mean about 1, and, as a share, about gravity: offsets and an inclination of 30 degrees move it so far.
-constexpr double kInG = 0.15;
-
 bool isOfMotion(SensorFault fault) {
   return fault == SensorFault::kNegativeDamping || fault == SensorFault::kUnrelated;
 }
@@ -100,7 +97,7 @@ SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {
 
 bool SensorCheck::isInG() const {
   const auto [smaller, larger] = std::minmax({std::abs(readings_[0].mean()), std::abs(readings_[1].mean())});
-  return std::abs(larger - kStandardGravity) < kInG * kStandardGravity && std::abs(smaller - 1.0) < kInG;
+  return std::abs(larger - kStandardGravity) < kGravityTolerance * kStandardGravity && readsInG(smaller);
 }
 
 }  // namespace suspension_health_monitor

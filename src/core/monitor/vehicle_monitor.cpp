@@ -13,6 +13,8 @@ namespace suspension_health_monitor {
 namespace {
 
 // Half of the blocks are new then, of those that there are or that are kept.
+constexpr std::size_t kFewestToCompare = 3;  // struts: of two nobody knows which one has changed
+
 constexpr Stamp kBodyFirst = std::chrono::seconds(5), kBodyEvery = std::chrono::seconds(30);
 
 }  // namespace
@@ -90,15 +92,14 @@ void VehicleMonitor::addReading(const VehicleChannels& vehicle, const VehicleRea
   if (estimate == nullptr) return;
   if (estimate->strut + 1 == numStruts() || !decoupler_) learnRows();
   if (!isCoupled()) return;
-  struts_[estimate->strut].setOthers(sharedByOthers(estimate->strut));
+  if (blocks_->hasDeadGyro()) mistake_ = {VehicleMistake::Kind::kDeadGyro};
+  if (numStruts() >= kFewestToCompare) struts_[estimate->strut].setOthers(sharedByOthers(estimate->strut));
   struts_[estimate->strut].takeEstimate(*estimate, modelStddev(*estimate));
 }
 
 // The least that all of them have: a worn one among them has no say.
 std::optional<LogChange> VehicleMonitor::sharedByOthers(std::size_t strut) const {
-  constexpr std::size_t kFewestStruts = 3;
   std::optional<LogChange> shared;
-  if (numStruts() < kFewestStruts) return shared;
   std::pair<double, double> range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < numStruts(); ++i) {
     if (i == strut) continue;
@@ -176,7 +177,7 @@ void VehicleMonitor::fitBody() {
 }
 
 void VehicleMonitor::fitRows() {
-  mistake_ = claims_->found();
+  mistake_ = blocks_->hasDeadGyro() ? VehicleMistake{VehicleMistake::Kind::kDeadGyro} : claims_->found();
   by_links_ = claims_->byLinks();
   claims_.reset();
   BodyRows rows;

@@ -103,6 +103,16 @@ void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, Stru
   }
 }
 
+std::array<double, 3> VehicleSpectra::bodyPowers(long half) {
+  std::array<double, 3> powers;
+  for (const BodyChannel channel : {kAz, kWx, kWy}) {
+    streams_[body_].sumHalves(half, channel, channel_);
+    modulation_.apply(0, channel_, derivative_);
+    powers[channel] = derivative_.abs2().sum();
+  }
+  return powers;
+}
+
 CoupledTops::CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces)
     : modulation_(band), s_(modulation_.s()), lu_(struts) {
   rows_ = {Eigen::MatrixXd::Zero(struts, struts), Eigen::MatrixXd::Zero(struts, struts),

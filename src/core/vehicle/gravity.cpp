@@ -23,6 +23,9 @@ Eigen::Vector3d medianOf(Readings::const_iterator begin, Readings::const_iterato
   return medians;
 }
 
+// Beyond half of gravity, where no offset reaches, or in g.
+bool isGravity(double size) { return size >= kStandardGravity / 2.0 || readsInG(size); }
+
 }  // namespace
 
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -39,7 +42,7 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
                     begin + (end - begin) * (i + 1) / kVehicleTuning.fewest_parts);
     gravity += part / kVehicleTuning.fewest_parts;
   }
-  if (!(gravity.norm() >= kStandardGravity / 2.0)) return;  // which no offset is
+  if (!isGravity(gravity.norm())) return;
   if (std::abs(gravity.norm() - kStandardGravity) > kUsualOffset) gain_ = gravity.norm() / kStandardGravity;
   lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
   is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
@@ -67,7 +70,7 @@ void MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
 std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) const {
   Finding found;
   found.size = mean_.norm();
-  if (parts_ < kVehicleTuning.fewest_parts || found.size < kStandardGravity / 2.0) return std::nullopt;
+  if (parts_ < kVehicleTuning.fewest_parts || !isGravity(found.size)) return std::nullopt;
   found.lean = angleBetween(mean_, up);
   found.lean_stddev = std::sqrt(scatter_ / (parts_ - 1.0) / parts_) / found.size;
   mean_.cwiseAbs().maxCoeff(&found.axis);

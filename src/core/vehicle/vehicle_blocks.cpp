@@ -46,6 +46,7 @@ void VehicleBlocks::begin(double length) {
   length_ = length;
   modulation_ = Modulation(band);
   spectra_.emplace(band, vehicle_, effects_);
+  gyro_ = {};
   friction_.assign(size(), SlidingFriction::ofBlocks(length));
   // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
   const double bounce =
@@ -150,6 +151,7 @@ void VehicleBlocks::takeBlock() {
   const long half = next_half_++;
   if (!spectra_->isWhole(half)) return;
   for (std::size_t i = 0; i < size(); ++i) spectra_->fill(i, half, estimators_[i].next());
+  if (vehicle_.numTopsOfBody() > 0) gyro_.add(spectra_->bodyPowers(half));
   if (!isAlone()) {
     fillNeighbours();
     predict(0);

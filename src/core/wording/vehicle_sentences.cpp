@@ -117,7 +117,9 @@ std::string describe(const MountClaim::Finding& mount, const std::string& name, 
         formatted("leans by %.0f degrees and reads %.2f of the motion along its strut: turn it, or give "
                   "target_frame",
                   mount.lean * 180.0 / M_PI, std::cos(mount.lean)));
-  if (mount.isWrongSize())
+  if (readsInG(mount.size))
+    faults.push_back("reads about 1 where gravity is 9.81: it is in g, must be in m/s^2");
+  else if (mount.isWrongSize())
     faults.push_back(formatted("reads gravity as %.2f m/s^2: gain %.2f", mount.size, mount.size / kStandardGravity));
   return faults.empty() ? "" : name + " " + join(faults, " and ");
 }

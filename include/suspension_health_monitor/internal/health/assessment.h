@@ -45,9 +45,13 @@ class HealthAssessment {
   /// @param sensor  what is known of the sensors; counts from the next update().
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
-  /// @param others  the damping's change that all other struts of the vehicle share; empty: not known, or fewer than
-  /// two. Counts from the next update().
-  void setOthers(const std::optional<LogChange>& others) { others_ = others; }
+  /// The strut is one of three or more of a vehicle. Counts from the next update().
+  /// @param others  the damping's change that all other struts share; empty: not known yet, and until then no change is
+  /// so large that it needs no confirmation.
+  void setOthers(const std::optional<LogChange>& others) {
+    others_ = others;
+    awaits_others_ = !others;
+  }
 
   /// @return ln of damping over the healthy strut's by the newest estimate, without a load; empty: not known.
   const std::optional<LogChange>& dampingChange() const { return damping_change_; }
@@ -97,6 +101,7 @@ class HealthAssessment {
   Stamp report_stamp_{};
   SensorReport sensor_;
   std::optional<LogChange> others_, damping_change_;
+  bool awaits_others_ = false;
   HealthReport report_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -42,6 +43,9 @@ class VehicleSpectra {
 
   /// Fills in what was measured in the block that ends with this half block, but for the neighbours.
   void fill(std::size_t strut, long half, StrutBlock& block);
+
+  /// @return powers of a_z, w_x and w_y of the body's IMU in the band of that block.
+  std::array<double, 3> bodyPowers(long half);
 
  private:
   enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };

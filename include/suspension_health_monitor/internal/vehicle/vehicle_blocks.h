@@ -11,6 +11,7 @@
 #include "suspension_health_monitor/internal/blocks/sliding_friction.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
+#include "suspension_health_monitor/internal/vehicle/gyro_check.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
@@ -86,6 +87,9 @@ class VehicleBlocks {
   /// @param of_body_imu  where the tops are, if what is given as theirs was made of the body's IMU; else empty.
   VehicleClaims claims(const StrutPlaces& of_body_imu) const;
 
+  /// @return true if the gyro of the body's IMU has died, by the newest block.
+  bool hasDeadGyro() const { return gyro_.isDead(); }
+
   /// Another drive: nothing is known any more, but to overTheDrive().
   void restart();
 
@@ -130,6 +134,7 @@ class VehicleBlocks {
   BlockColumns columns_;
   std::optional<Stamp> origin_;
   std::optional<VehicleSpectra> spectra_;
+  GyroCheck gyro_;
   std::optional<CoupledTops> model_;        // of two struts or more
   std::vector<BlockEstimator> estimators_;  // by strut, as all that follow
   OfLength longest_;                        // of the lengths before the one that covered most, for overTheDrive()

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "suspension_health_monitor/internal/math/running_means.h"
+
+namespace suspension_health_monitor {
+
+/// Whether the gyro of a body's IMU has died while the vehicle drove: an axis turns a tenth as much as usual, or less,
+/// while the body moves up and down as before. By chance the power of a block, of a dozen independent numbers or more,
+/// is not a hundred times smaller than usual. VehicleClaims finds a gyro that never turned.
+class GyroCheck {
+ public:
+  /// @param powers  of a_z, w_x, w_y in the band of a block.
+  void add(const std::array<double, 3>& powers) {
+    const bool moves = usual_.weight() >= kFewestForScatter && powers[0] > kSmall * usual_.mean(0);
+    const auto is_low = [&](std::size_t axis) { return powers[axis] < square(kSmall) * usual_.mean(axis); };
+    is_dead_ = moves && (is_low(1) || is_low(2));
+    usual_.add(powers);
+  }
+
+  /// @return true if it was so in the newest block.
+  bool isDead() const { return is_dead_; }
+
+ private:
+  RunningMeans<3> usual_{0.99};  // two minutes and a half of usual blocks
+  bool is_dead_ = false;
+};
+
+}  // namespace suspension_health_monitor
