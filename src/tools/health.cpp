@@ -54,7 +54,7 @@ void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Basel
   if (table.isOf(strut))
     std::fprintf(table.beginLine(strut, moment.time), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level),
                  boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(), estimate.damping_to_mass,
-                 estimate.stiffness_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass_stddev,
+                 estimate.stiffness_to_mass, estimate.dampingAbsoluteStddev(), estimate.stiffnessAbsoluteStddev(),
                  moment.offset);
   if (page) courses[strut].add({moment, judged_by});
 }

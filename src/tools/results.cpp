@@ -106,6 +106,8 @@ void printEstimates(const IdentifyResult& found, const std::optional<double>& ma
 
 json toJson(const StrutEstimate& estimate) {
   json result = jsonOf(estimate);
+  result["damping_to_mass_stddev"] = jsonOf(estimate.dampingAbsoluteStddev());
+  result["stiffness_to_mass_stddev"] = jsonOf(estimate.stiffnessAbsoluteStddev());
   result["rows"] = estimate.effective_rows;
   result["valid"] = estimate.valid();
   result["reason"] = estimate.valid() ? "" : describe(estimate.doubt);

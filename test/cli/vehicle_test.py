@@ -1,5 +1,6 @@
 """--vehicle: every strut of a whole vehicle from its bag, as identify, compare, diagnose and health tell it."""
 import json
+import re
 
 import pytest
 import yaml
@@ -159,6 +160,16 @@ def ugv(program, tmp_path_factory):
     program.succeed("simulate", "--vehicle-model", "ugv", "--duration", "60", "--rate", "100", "--set",
                     "sprung_imus=none", "-o", folder / "drive.bag", "--vehicle-file", folder / "vehicle.yaml")
     return folder / "drive.bag", (folder / "vehicle.yaml").read_text()
+
+
+def test_health_gives_one_standard_deviation_with_the_models_error(program, ugv, tmp_path):
+    vehicle, told = tmp_path / "vehicle.yaml", tmp_path / "told.json"
+    vehicle.write_text(ugv[1])
+    text = program.succeed("health", ugv[0], "--vehicle", vehicle, "--json", told)
+    printed = [float(stddev) for stddev in re.findall(r"estimate: damping/mass \S+ \+- (\S+) 1/s", text)]
+    struts = json.loads(told.read_text())["struts"].values()
+    assert len(printed) == 4
+    assert printed == pytest.approx([strut["estimate"]["damping_to_mass_stddev"] for strut in struts], abs=1e-4)
 
 
 def mirror(left, _):
