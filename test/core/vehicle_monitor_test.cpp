@@ -102,9 +102,14 @@ TEST(VehicleMonitor, RaisesNoLevelForDampersThatAreWarmFromTheStart) {
                              raised[strut] += level == HealthLevel::kWarn || level == HealthLevel::kError ? 1 : 0;
                              last[strut] = report.health;
                            });
-    for (std::size_t i = 0; i < healthy.size(); ++i)
-      monitor.setBaseline(i, {healthy[i].damping_to_mass, healthy[i].stiffness_to_mass,
-                              healthy[i].damping_to_mass_stddev, healthy[i].stiffness_to_mass_stddev});
+    for (std::size_t i = 0; i < healthy.size(); ++i) {
+      Baseline baseline;
+      baseline.damping_to_mass = healthy[i].damping_to_mass;
+      baseline.stiffness_to_mass = healthy[i].stiffness_to_mass;
+      baseline.damping_to_mass_stddev = healthy[i].damping_to_mass_stddev;
+      baseline.stiffness_to_mass_stddev = healthy[i].stiffness_to_mass_stddev;
+      monitor.setBaseline(i, baseline);
+    }
     for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_EQ(raised[i], 0) << i;
