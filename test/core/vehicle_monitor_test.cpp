@@ -83,7 +83,7 @@ TEST(VehicleMonitor, TakesWhatAllDampersShareForTheirTemperature) {
   }
 }
 
-// The first judgement of a strut comes before those of the others, and a difference of 20 % needs no confirmation.
+// The first judgement of a strut comes before those of the others.
 TEST(VehicleMonitor, RaisesNoLevelForDampersThatAreWarmFromTheStart) {
   constexpr double kWarm = 0.8;
   std::vector<StrutEstimate> healthy;

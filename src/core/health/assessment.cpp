@@ -119,7 +119,6 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   // The same estimate twice is no confirmation of itself, unless it needs none.
   const bool is_judgement = estimate.tellsChanges() && sensor_.fault == SensorFault::kNone;
   const bool is_decisive =
-      !awaits_others_ &&
       std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
                judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) > kDecisive * kCertain;
   if (judges || !is_judgement || is_decisive || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);
@@ -142,7 +141,6 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   carryOn(stiffness_, changed.change.stiffness);
   const StrutChange change = splitChange(changed.change, options_.payload_range, known_load_);
   judged_ = HealthReport();
-  damping_change_.reset();
   judge(change);
   judged_.friction_doubt = judged_.uncertain && changed.is_mostly_friction;
   noteLoad(change);
@@ -178,6 +176,8 @@ LoadDoubt HealthAssessment::doubtOfLoad(const StrutChange& change) const {
 
 void HealthAssessment::judge(const StrutChange& change) {
   HealthReport& now = judged_;
+  const bool is_first = !damping_change_;
+  damping_change_.reset();
   now.damping_change = change.damping;
   now.stiffness_change = change.stiffness;
   now.payload_change = change.payload;
@@ -204,6 +204,7 @@ void HealthAssessment::judge(const StrutChange& change) {
         now.shared_damping_change = std::expm1(nearestToNone(std::minmax(damping_change_->size, others_->size)));
       if (own != HealthLevel::kStale) damping_.level = std::min(own, HealthLevel::kWarn);
     }
+    if (is_first && awaits_others_ && damping_.level == HealthLevel::kWarn) damping_.level = before;
   }
   if (change.stiffness) {
     const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured.stiffness,

@@ -46,8 +46,8 @@ class HealthAssessment {
   void setSensors(const SensorReport& sensor) { sensor_ = sensor; }
 
   /// The strut is one of three or more of a vehicle. Counts from the next update().
-  /// @param others  the damping's change that all other struts share; empty: not known yet, and until then no change is
-  /// so large that it needs no confirmation.
+  /// @param others  the damping's change that all other struts share; empty: not known yet, as at the first judgement,
+  /// which therefore raises no WARN for the damping.
   void setOthers(const std::optional<LogChange>& others) {
     others_ = others;
     awaits_others_ = !others;
