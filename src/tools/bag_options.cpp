@@ -188,7 +188,10 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   const PipelineOptions& common = options.settings.common;
   options.bags = bagsOf(values);
   options.bags.reads_ahead = threadsOf(values) > 1;
-  if (!common.shell.target_frame.empty()) options.bags.transforms = readStaticTransforms(options.bags.paths);
+  if (!common.shell.target_frame.empty()) {
+    options.bags.transforms = readStaticTransforms(options.bags.paths);
+    requireFrame(common.shell.target_frame, *options.bags.transforms);
+  }
   findSensors(options.bags, common.shell, vehicle.layout);
   options.bags.temperature_topics = options.settings.temperatureTopics();
   if (vehicle.isStrutAlone())
