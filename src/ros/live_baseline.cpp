@@ -157,8 +157,10 @@ bool areSettings(const OptionMap& values) {
 
 void requireOneReference(const std::string& file, const MonitorOptions& options) {
   if (options.nominal_damping_to_mass || options.nominal_stiffness_to_mass)
-    throw std::invalid_argument((file.empty() ? "a baseline" : "baseline_file = \"" + file + '"') +
-                                " and nominal values are both given, must be one of them");
+    throw std::invalid_argument(
+        (file.empty() ? "a baseline" : "baseline_file = \"" + file + '"') +
+        " and nominal values are both given, must be one of them: take nominal, which identify -o writes, "
+        "out of the settings, or the baseline");
 }
 
 LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell.baseline_file) {
@@ -188,7 +190,7 @@ std::string LiveBaseline::keepLearned(const SuspensionMonitor& monitor) {
 
 void LiveBaseline::save(const SuspensionMonitor* monitor) {
   if (monitor == nullptr || !monitor->report().estimate.tellsChanges()) throw std::runtime_error(kNothingToSave);
-  if (path_.empty()) throw std::runtime_error("no file to write to: set the parameter baseline_file");
+  if (path_.empty()) throw std::runtime_error("no file to write to: start with the parameter baseline_file");
   const StrutEstimate& estimate = monitor->report().estimate;
   const MonitorOptions& options = monitor->options();
   checkCertain("damping_to_mass", estimate.damping_to_mass, estimate.damping_to_mass_stddev, options.damping_error);

@@ -167,7 +167,9 @@ std::vector<std::string> LiveModel::missing() const {
 }
 
 void LiveModel::save(StrutModel model) const {
-  if (model_file_.empty()) throw std::runtime_error("no file to write to: set the parameter model_file");
+  if (model_file_.empty())
+    throw std::runtime_error(
+        "no file to write to: start with the parameter model_file, as model_file:=FILE of the launch files");
   if (loaded_) {
     model.reading = loaded_->reading;
     model.is_complete = loaded_->is_complete;

@@ -139,8 +139,8 @@ void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& 
 void StrutDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status& status) {
   const ros::Time now = ros::Time::now();
   const std::uint64_t samples = monitor.input().samples;
-  if (samples != accepted_.samples || now < accepted_.at) accepted_ = {samples, now};
-  const double silent = (now - accepted_.at).toSec();
+  if (!accepted_ || samples != accepted_->samples || now < accepted_->at) accepted_ = {samples, now};
+  const double silent = (now - accepted_->at).toSec();
   if (silent <= input_timeout_) return;
   status.summary(Status::STALE, describeNoReading(silent, silent_(), status.message));
 }

@@ -89,7 +89,7 @@ class StrutDiagnostics {
 
   double input_timeout_;
   FindSilent silent_;
-  Accepted accepted_;
+  std::optional<Accepted> accepted_;
   const LiveModel& model_;
   TaskLog log_;  // of Health
   DriveSummary drive_;

@@ -3,10 +3,12 @@
 #include <tf2/LinearMath/Matrix3x3.h>
 #include <tf2/LinearMath/Quaternion.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "conversions.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -136,6 +138,15 @@ const std::vector<double>& VehicleSensors::read(std::size_t sensor, const geomet
   values_.clear();
   for (const std::size_t field : sensors_[sensor].fields) values_.push_back(all[field]);
   return values_;
+}
+
+void requireFrame(const std::string& target_frame, const tf2::BufferCore& transforms) {
+  const std::string name = withoutSlash(target_frame);
+  std::vector<std::string> frames;
+  transforms._getFrameStrings(frames);
+  if (std::find(frames.begin(), frames.end(), name) == frames.end())
+    throw std::invalid_argument("target_frame = \"" + target_frame + "\", must be a frame of /tf_static" +
+                                suggestNearest(name, frames));
 }
 
 void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const ShellOptions& options,

@@ -99,6 +99,9 @@ class VehicleSensors {
   std::vector<double> values_;
 };
 
+/// @throws std::invalid_argument  naming target_frame, if no static transform is of this frame.
+void requireFrame(const std::string& target_frame, const tf2::BufferCore& transforms);
+
 /// Gives struts that have a frame their position, by the static transforms from the body's IMU.
 /// @param imu  any message of the body's IMU, which tells its frame.
 /// @throws std::invalid_argument  naming the frame whose transform is missing.

@@ -14,13 +14,11 @@ namespace {
 constexpr const char* kOfTheModel = "the model's";
 
 Vehicle vehicleOf(const std::string& model, const EffectLibrary& library) {
-  const bool is_file = model.find_first_of("./") != std::string::npos || std::filesystem::exists(model);
-  if (!is_file) {
-    try {
-      return namedVehicle(model);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(std::string(error.what()) + ", or a YAML file");
-    }
+  try {
+    return namedVehicle(model);
+  } catch (const std::invalid_argument& error) {
+    const bool is_file = model.find_first_of("./") != std::string::npos || std::filesystem::exists(model);
+    if (!is_file) throw std::invalid_argument(std::string(error.what()) + ", or a YAML file");
   }
   OptionMap values = readYaml(model);
   return prefixed(model + ": ", [&] {

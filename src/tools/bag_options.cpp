@@ -82,6 +82,19 @@ void place(VehicleLayout& layout, ImuBags bags, const ShellOptions& options) {
   placeFrames(layout, *first, options, *bags.transforms);
 }
 
+/// Makes nominal values of the numbers of a model that diagnose -o has written.  @return false: it is none.
+bool toNominal(OptionMap& settings) {
+  constexpr const char *kDamping = "damping_to_mass", *kStiffness = "stiffness_to_mass";
+  if (settings.count(kDamping) == 0 || settings.count(kStiffness) == 0) return false;
+  settings.erase("complete");
+  for (const char* number : {kDamping, kStiffness}) {
+    settings.insert({std::string("nominal/") + number, settings.at(number)});
+    settings.erase(number);
+  }
+  for (const char* of_model : {"effects", "readings"}) takePrefixed(settings, of_model);
+  return true;
+}
+
 }  // namespace
 
 void addBags(po::options_description& description) {
@@ -159,18 +172,16 @@ int threadsOf(const po::variables_map& values) {
 }
 
 OptionMap givenSettings(const po::variables_map& values) {
-  constexpr const char *kDamping = "damping_to_mass", *kStiffness = "stiffness_to_mass";
   OptionMap settings = gatherOptions(values);
   const auto path = values["config"].as<std::string>();
-  if (values.count(kVehicle) != 0 || path.empty() || settings.count(kDamping) == 0 || settings.count(kStiffness) == 0)
-    return settings;
-  settings.insert({"model_file", path});
-  settings.erase("complete");
-  for (const char* number : {kDamping, kStiffness}) {
-    settings.insert({std::string("nominal/") + number, settings.at(number)});
-    settings.erase(number);
+  if (path.empty()) return settings;
+  std::map<std::string, OptionMap> struts = takeGroups(settings, kStruts);
+  bool is_model = toNominal(settings);
+  for (auto& [name, own] : struts) {
+    is_model = toNominal(own) || is_model;
+    for (auto& [key, value] : own) settings[std::string(kStruts) + '/' + name + '/' + key] = value;
   }
-  for (const char* of_model : {"effects", "readings"}) takePrefixed(settings, of_model);
+  if (is_model) settings.insert({"model_file", path});
   return settings;
 }
 
@@ -188,7 +199,10 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   const PipelineOptions& common = options.settings.common;
   options.bags = bagsOf(values);
   options.bags.reads_ahead = threadsOf(values) > 1;
-  if (!common.shell.target_frame.empty()) options.bags.transforms = readStaticTransforms(options.bags.paths);
+  if (!common.shell.target_frame.empty()) {
+    options.bags.transforms = readStaticTransforms(options.bags.paths);
+    requireFrame(common.shell.target_frame, *options.bags.transforms);
+  }
   findSensors(options.bags, common.shell, vehicle.layout);
   options.bags.temperature_topics = options.settings.temperatureTopics();
   if (vehicle.isStrutAlone())

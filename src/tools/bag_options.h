@@ -83,8 +83,8 @@ double measurePeriod(const ImuBags& bags);
 /// bags that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
 void requireFittingPeriod(const ImuBags& bags, double sample_period);
 
-/// @return the settings that --config and --set give. Of a strut alone a model, as diagnose -o writes it, is a config,
-/// too: its effects by model_file, its b1 and b0 as nominal values.
+/// @return the settings that --config and --set give. The models that diagnose -o writes are a config, too: their
+/// effects by model_file, their b1 and b0 as nominal values.
 /// @throws std::invalid_argument  as command.h.
 OptionMap givenSettings(const boost::program_options::variables_map& values);
 

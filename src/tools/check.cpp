@@ -5,6 +5,7 @@
 #include "bag_options.h"
 #include "checked_imus.h"
 #include "command.h"
+#include "long_work.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
@@ -77,6 +78,7 @@ void check(const Arguments& arguments) {
       arguments, "check BAG... [--vehicle FILE | --sprung-topic T --unsprung-topic T] [OPTION]...", description, "bag");
   if (!values) return;
   requireSeparateFiles(*values, {"bag", kVehicle}, {"write", "json"});
+  const Interruption interruption;
   std::optional<TextFile> written = outputFile(*values, "write"), findings = outputFile(*values, "json");
 
   const ImuBags bags = bagsOf(*values);

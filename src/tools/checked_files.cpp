@@ -66,7 +66,7 @@ std::string nextCommand(const std::vector<CheckedImu>& imus, const std::vector<B
 
 std::string fileOf(const std::vector<CheckedImu>& imus, const std::vector<BodyOverWheel>& pairs,
                    const std::vector<std::string>& bags, const std::string& file) {
-  const std::string head = "# suspension_bag check has found this.  " + nextCommand(imus, pairs, bags, file) + "\n";
+  const std::string head = "# suspension_bag check has found this.\n# " + nextCommand(imus, pairs, bags, file) + "\n";
   if (pairs.size() > 1) return head + vehicleOf(imus, pairs);
   const CheckedImu &body = imus[pairs.front().body], &wheel = imus[pairs.front().wheel];
   return head + "# roslaunch suspension_health_monitor monitor.launch config:=" + file + " sprung_imu:=" + body.topic +

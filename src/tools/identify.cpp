@@ -137,7 +137,9 @@ void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyRes
     if (reason.empty()) return;
     reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, options));
   }
-  throw TooLittleError(join(reasons, "; ") + describeRejected(recorded.pipeline().rejected()));
+  const std::string mistake = describeMistake(*recorded.pipeline().monitor(), vehicle.names);
+  throw TooLittleError((mistake.empty() ? join(reasons, "; ") : mistake) +
+                       describeRejected(recorded.pipeline().rejected()));
 }
 
 /// The struts that may be what health is judged by, and what is the matter with the others.

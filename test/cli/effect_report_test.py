@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import re
+import shlex
 import types
 
 import pytest
@@ -48,9 +49,9 @@ def report(request, program, tmp_path_factory):
     """A case with its result as --json has it, the file of the page, and what a browser makes of it."""
     folder = tmp_path_factory.mktemp(request.param)
     bags = make_bags(program, folder, request.param)
-    program.succeed("diagnose", *bags, "--json", folder / "result.json", "--report", folder / "page")
+    told = program.succeed("diagnose", *bags, "--json", folder / "result.json", "--report", folder / "page")
     path = folder / "page" / "report.html"
-    return types.SimpleNamespace(case=request.param, bags=bags, path=path,
+    return types.SimpleNamespace(case=request.param, bags=bags, path=path, told=told,
                                  result=json.loads((folder / "result.json").read_text()),
                                  page=browser.shown(path, folder / "profile"))
 
@@ -146,6 +147,16 @@ def test_errors_have_one_unit(report):
     assert "mm/s²" not in text and "m/s²" in text
 
 
+def test_page_and_terminal_tell_the_same_share_of_the_error(report):
+    """Of every candidate that was fitted; of what was found, too, where that is one effect."""
+    told = dict(re.findall(r"^(\w+)[ ~]+[\d.]+ +(-?[\d.]+) %   ", report.told, re.MULTILINE))
+    rows = [list(row.all("td")) for row in report.page.one(id="ranking").all("tr")][1:]
+    shown = {cells[1].one("b").text.replace(" ", "_"): cells[3].text.replace("\u2212", "-").split()[0] for cells in rows}
+    assert told and {name: shown[name] for name in told} == told
+    if len(report.result["selected"]) == 1:
+        assert f"of the error removed {told[report.result['selected'][0]]}" in report.page.one(id="verdict").text
+
+
 def test_workshop_is_told_what_to_check(report):
     advice = [each.text for each in report.page.one(id="verdict").all(class_="advice")]
     assert len(advice) == len(report.result["selected"])
@@ -161,6 +172,24 @@ def test_commands_are_of_the_shell_alone(report):
     for block in blocks[1:]:
         assert re.match(r"(rosrun|roslaunch|rosservice) ", block), block
     assert "model_file:=$PWD/model.yaml" in blocks[-1]
+
+
+def test_commands_of_the_page_work_where_the_search_did(program, tmp_path):
+    program.succeed("simulate", *DRIVE[:-1], "30", "-o", tmp_path / "simulated.bag")
+    with rosbag.Bag(str(tmp_path / "simulated.bag")) as bag, rosbag.Bag(str(tmp_path / "drive.bag"), "w") as renamed:
+        for topic, message, time in bag.read_messages(["/sprung/imu", "/unsprung/imu"]):
+            renamed.write("/robot" + topic, message, time)
+    (tmp_path / "my strut.yaml").write_text("sprung_axis: z\n")
+    given = ["--sprung-topic", "/robot/sprung/imu", "--unsprung-topic=/robot/unsprung/imu", "--config", "my strut.yaml",
+             "--set", "memory=3"]
+    assert program("diagnose", "drive.bag", *given, "--report", "page", cwd=tmp_path).returncode == 0
+    page = browser.shown(tmp_path / "page" / "report.html", tmp_path / "profile")
+    write, compare, *_, live = [each.text for each in page.one(id="adding").all("pre")][1:]
+    for command in (write, compare.replace("another_drive.bag", "drive.bag")):
+        tool, *arguments = shlex.split(command)[2:]
+        done = program(*arguments, cwd=tmp_path)
+        assert (tool, done.returncode, done.stderr) == ("suspension_bag", 0, "")
+    assert "sprung_imu:=/robot/sprung/imu unsprung_imu:=/robot/unsprung/imu config:=$PWD/'my strut.yaml'" in live
 
 
 @pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))

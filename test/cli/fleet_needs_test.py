@@ -57,3 +57,10 @@ def test_a_scan_needs_no_plotly(tmp_path):
     """What is missing for the page of a report only does not keep a robot's bags from being read."""
     done = run_without("plotly", tmp_path, "scan", "no.bag", "--db", FLEET)
     assert "no.bag" in done.stderr and "install" not in done.stderr
+
+
+def test_without_a_sourced_workspace_one_sentence_says_what_to_source(tmp_path):
+    done = subprocess.run([sys.executable, "-I", "-S", SCRIPT, "show"], cwd=tmp_path, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, timeout=HANGS)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("suspension_fleet: ") and done.stderr.count("\n") == 1 and "setup.bash" in done.stderr

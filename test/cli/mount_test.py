@@ -94,6 +94,20 @@ def test_missing_transforms_are_named(program, level_bag, tmp_path):
     program.refuse(4, ["identify", other, *SETTINGS], ["no_transform"], tmp_path)
 
 
+@pytest.mark.parametrize("command", ["identify", "diagnose", "health", "inspect"])
+def test_a_mistyped_target_frame_is_named(program, level_bag, tmp_path, command):
+    bag = write_turned(level_bag, tmp_path / "turned.bag", PITCH, -PITCH)
+    program.refuse(2, [command, bag, "--set", "target_frame=strutt"],
+                   ['target_frame = "strutt", must be a frame of /tf_static; the nearest known name is strut\n'], tmp_path)
+    program.succeed("identify", bag, *SETTINGS[:4], "--set", "target_frame=/strut")
+
+
+def test_a_wrong_axis_is_named(program, level_bag, tmp_path):
+    bag = write_turned(level_bag, tmp_path / "turned.bag", PITCH, -PITCH)
+    told = program("health", bag, *SETTINGS[:4], "--set", "unsprung_axis=x").stdout
+    assert "gravity of /unsprung/imu is on another axis: give unsprung_axis: z" in told
+
+
 def test_range_of_the_sensor_is_where_readings_are_clipped(program, level_bag, tmp_path):
     with rosbag.Bag(str(level_bag)) as bag:
         readings = sorted(imu.linear_acceleration.z for _, imu, _ in bag.read_messages(imu_bag.SPRUNG))

@@ -2,6 +2,7 @@
 import ast
 import inspect
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -41,6 +42,14 @@ def test_messages_load_without_the_module_and_beside_it():
     assert loaded.split()[1] == "False"
     assert run("import suspension_health_monitor as shm; from suspension_health_monitor.msg import SuspensionHealth; "
                "print(len(shm.effects()) > 10, shm.identify.__name__)") == "True identify\n"
+
+
+def test_arrays_need_the_path_of_the_package_and_no_ros():
+    path = os.pathsep.join(str(pathlib.Path(folder).parent) for folder in shm.__path__)
+    program = "import suspension_health_monitor as shm; print(shm.simulate(duration=60).damping_to_mass[0])"
+    done = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env={"PYTHONPATH": path})
+    assert (done.returncode, done.stderr) == (0, "") and float(done.stdout) > 0.0
 
 
 def test_matplotlib_is_loaded_by_the_first_plot_only():

@@ -70,6 +70,7 @@ def test_a_signal_that_the_parent_ignores_stays_ignored(program, tmp_path):
 
 @pytest.mark.parametrize("command, files, after", [  # [s] of processor time: while it reads the bag, while it computes
     ("identify", ["--csv", "rows.csv", "--json", "result.json"], 0.0),
+    ("check", ["--json", "result.json", "--write", "strut.yaml"], 0.0),
     ("compare", ["--json", "result.json"], 0.0), ("compare", ["--json", "result.json"], 0.5),
     ("diagnose", ["--json", "result.json", "-o", "model.yaml"], 0.5)])
 def test_a_signal_leaves_no_part_of_the_results(program, long_bag, tmp_path, command, files, after):

@@ -156,6 +156,11 @@ def test_compare_and_diagnose_take_the_models_that_diagnose_wrote(program, found
     assert again["selected"] == {"front": [], "rear": []}
 
 
+def test_health_takes_the_models_that_diagnose_wrote_as_settings(program, found):
+    told = program.succeed("health", *found.of, "--config", found.models)
+    assert told.count("judged by nominal values: damping/mass") == 2 and "ERROR        0.00" in told
+
+
 def test_a_strut_without_a_model_has_the_linear_one(program, found, tmp_path):
     part = tmp_path / "part.yaml"
     part.write_text(yaml.safe_dump({"struts": {"front": yaml.safe_load(found.models.read_text())["struts"]["front"]}}))
@@ -214,7 +219,7 @@ def test_a_file_without_the_strut_asked_for_is_refused(program, found, tmp_path)
 
 def test_nominal_values_beside_a_baseline_are_refused(program, vehicle, healthy, tmp_path):
     program.refuse(2, ["health", *vehicle.of, "--baseline", healthy, "--set", "nominal/damping_to_mass=3"],
-                   ["baseline_file", "must be one of them"], tmp_path)
+                   ["baseline_file", "must be one of them", "take nominal, which identify -o writes, out"], tmp_path)
 
 
 @pytest.mark.parametrize("command, inputs, outputs", [

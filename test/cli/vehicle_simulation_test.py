@@ -92,6 +92,12 @@ def test_vehicle_of_a_file(program, tmp_path):
     assert rates.std() > 1e-3
 
 
+def test_a_folder_called_like_a_model_does_not_hide_the_model(program, tmp_path):
+    (tmp_path / "ugv").mkdir()
+    told = program("simulate", "--vehicle-model", "ugv", *SHORT, "-o", "drive.bag", cwd=tmp_path)
+    assert (told.returncode, told.stderr) == (0, "") and told.stdout.startswith("drive.bag: ugv, ")
+
+
 def test_same_seed_same_bag_another_another(program, tmp_path):
     for name, seed in (("a", 3), ("b", 3), ("c", 4)):
         program.succeed("simulate", "--vehicle-model", "half_sedan", *SHORT, "--seed", seed, "-o", tmp_path / name)

@@ -53,6 +53,18 @@ def test_identify_tells_how_the_mass_is_spread(program, tmp_path, imus):
     assert body["centre_of_gravity"] == pytest.approx([-SEDAN_IMU[0], -SEDAN_IMU[1]], abs=0.02)
 
 
+def test_struts_that_the_file_lacks_are_the_reason_why_there_is_no_estimate(program, tmp_path):
+    """Not that a drive of a minute is too short."""
+    bag, path = tmp_path / "drive.bag", tmp_path / "vehicle.yaml"
+    program.succeed("simulate", "--vehicle-model", "ugv", "--duration", "60", "-o", bag, "--vehicle-file", path)
+    layout = yaml.safe_load(path.read_text())
+    layout["struts"] = {name: strut for name, strut in layout["struts"].items() if name.startswith("front")}
+    path.write_text(yaml.safe_dump(layout))
+    told = program("identify", bag, "--vehicle", path)
+    assert told.returncode == 4 and "too short" not in told.stderr
+    assert "the drives do not fit the vehicle file: " in told.stderr and "a strut that is missing in the file" in told.stderr
+
+
 def test_two_struts_do_not_tell_how_the_mass_is_spread(program, vehicle, tmp_path):
     text = program.succeed("identify", vehicle[0], "--vehicle", vehicle[1])
     assert "cannot tell M/Iyy and M/Ixx: it takes three struts that do not stand on one line\n" in text

@@ -1,7 +1,13 @@
 """Wrong options and settings: status 2, and a message that says what would be right."""
+import os
+import pathlib
+import re
+import subprocess
+
 import pytest
 
 import conftest
+import imu_bag
 
 USAGE = {
     "no bag": ([], ["no bag is given; usage: suspension_bag identify BAG..."]),
@@ -89,6 +95,15 @@ def test_settings_file_that_cannot_be_read(program, paper_bag, tmp_path, name): 
     program.refuse(2, ["identify", paper_bag, "--config", path], [path, "must be a YAML file"], tmp_path)
 
 
+@pytest.mark.parametrize("command, option", [
+    ("identify", "--config"), ("identify", "--vehicle"), ("health", "--baseline"), ("compare", "--model"),
+    ("diagnose", "--effects-file"), ("inspect", "--config")])
+def test_a_pipe_in_place_of_a_settings_file_is_refused_at_once(program, paper_bag, tmp_path, command, option):
+    os.mkfifo(tmp_path / "pipe.yaml")
+    program.refuse(2, [command, paper_bag, option, tmp_path / "pipe.yaml"],
+                   [tmp_path / "pipe.yaml", "is a pipe, must be a YAML file"], tmp_path)
+
+
 def test_a_relative_path_is_told_with_its_folder(program, paper_bag, tmp_path):
     result = program("identify", paper_bag, "--config", "missing.yaml", cwd=tmp_path)
     assert f"missing.yaml: cannot be read in {tmp_path}, must be a YAML file" in result.stderr
@@ -158,3 +173,34 @@ def test_no_command(program):
 
 def test_unknown_table_of_options(program, tmp_path):
     program.refuse(2, ["options", "car"], ["car", "monitor, simulator or vehicle"], tmp_path)
+
+
+NODES = {"monitor": "options monitor", "vehicle": "options monitor", "simulator": "options simulator"}
+
+
+def run_node(program, name, *arguments):
+    """Where nobody has told of a master."""
+    node = pathlib.Path(program.path).with_name(f"{name}_node")
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("ROS_")}
+    return subprocess.run([node, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment,
+                          timeout=conftest.HANGS)
+
+
+@pytest.mark.parametrize("name, settings", NODES.items())
+@pytest.mark.parametrize("option", ["--help", "-h"])
+def test_a_node_tells_how_it_is_started_without_a_master(program, name, settings, option):
+    done = run_node(program, name, "__name:=mine", option)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"usage: {name}_node" in done.stdout and "private parameters" in done.stdout and settings in done.stdout
+    launch_file, *arguments = re.search(r"roslaunch suspension_health_monitor (.*)", done.stdout)[1].split()
+    text = (imu_bag.REPOSITORY / "launch" / launch_file).read_text()
+    for argument in arguments:
+        assert f'<arg name="{argument.split(":=")[0]}"' in text
+
+
+@pytest.mark.parametrize("name", NODES)
+@pytest.mark.parametrize("arguments", [["--bogus"], ["sprung/imu:=/body/imu", "--bogus"], ["drive.bag"]])
+def test_a_node_refuses_an_argument_that_is_no_remapping(program, name, arguments):
+    done = run_node(program, name, *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"{name}_node: unknown argument {arguments[-1]}\nusage: ")

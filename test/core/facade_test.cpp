@@ -8,6 +8,7 @@
 #include "hidden_effect.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
@@ -55,6 +56,14 @@ TEST(Facade, EmptyDrivesBesideAGoodOneChangeNothing) {
   EXPECT_EQ(found.selected, std::vector<std::string>{"bump_stop"});
   EXPECT_EQ(found.from, carWithAStop().samples.front().stamp);
   EXPECT_EQ(found.to, carWithAStop().samples.back().stamp);
+}
+
+TEST(Facade, NoDriveIsNoEstimateWhereAllIsGiven) {
+  IdentifyOptions options;
+  options.sample_period = 0.01;
+  options.horizon_samples = 50;
+  for (const std::vector<Drive>& nothing : {std::vector<Drive>{}, std::vector<Drive>{Drive{}}})
+    EXPECT_FALSE(identify(nothing, options).estimate.valid());
 }
 
 TEST(Facade, RefusesAModelOfMoreEffectsThanThereMayBe) {

@@ -11,8 +11,11 @@ from decimal import Decimal
 import rosbag
 import rospy
 import rostest
+from geometry_msgs.msg import Quaternion, Transform, TransformStamped
 from ros_session import PACKAGE, Collector, is_finite, replayed, run_tool, settings_file
+from std_msgs.msg import Header
 from suspension_health_monitor.msg import ModelComparison, ParameterEstimate, SuspensionHealth
+from tf2_msgs.msg import TFMessage
 
 DURATION = 75.0  # [s], with both losses of readings and the first damage
 OLDEST_DATA = 5.0  # [s], less than an estimate ages during a loss of readings: "cannot tell" comes and goes
@@ -41,6 +44,21 @@ def read_levels(path):
     """(stamp in nanoseconds, level, reason) of each row of `health --csv`."""
     with open(path, encoding="utf-8", newline="") as stream:
         return [(int(Decimal(row["time"]) * 10**9), row["level"], row["message"]) for row in csv.DictReader(stream)]
+
+
+def turn_wheel_imu(source, path):
+    """The bag as of a robot whose wheel's IMU hangs upside down, as its latched /tf_static says."""
+    frames = [TransformStamped(header=Header(frame_id="strut"), child_frame_id=frame, transform=Transform(rotation=rotation))
+              for frame, rotation in (("sprung_imu", Quaternion(w=1.0)), ("unsprung_imu", Quaternion(x=1.0)))]
+    latched = {"topic": "/tf_static", "type": TFMessage._type, "md5sum": TFMessage._md5sum, "latching": "1",
+               "message_definition": TFMessage._full_text}
+    with rosbag.Bag(source) as bag, rosbag.Bag(path, "w") as turned:
+        for topic, message, time in bag.read_messages(["/sprung/imu", "/unsprung/imu"]):
+            if turned.get_message_count() == 0:
+                turned.write("/tf_static", TFMessage(frames), time, connection_header=latched)
+            if topic == "/unsprung/imu":
+                message.linear_acceleration.z *= -1.0
+            turned.write(topic, message, time)
 
 
 class BagReplayTest(unittest.TestCase):
@@ -103,6 +121,22 @@ class BagReplayTest(unittest.TestCase):
         self.assertGreaterEqual(len(changes(live)), 4)
         for stamp, level, reason in self.levels[1:]:  # the first row is that of the first reading, before any report
             self.assertEqual((level, reason), (LEVELS[self.health[stamp].level], self.health[stamp].reason))
+
+    def test_static_transforms_of_the_bag_are_played_and_wait_for_nobody(self):
+        with tempfile.TemporaryDirectory() as folder:
+            level, bag = os.path.join(folder, "level.bag"), os.path.join(folder, "turned.bag")
+            run_tool("simulate", "--scenario", "paper_clean", "--duration", "20", "-o", level)
+            turn_wheel_imu(level, bag)
+            for target_frame in ("strut", ""):  # a monitor without one does not hear them
+                estimates = Collector("/monitor/la", ParameterEstimate)
+                config = settings_file(folder, "paper.yaml", target_frame=target_frame)
+                with replayed([estimates], bag=bag, rate=RATE, config=config) as player:
+                    self.assertEqual(player.wait_for_end(), 0, player.output())
+                estimates.stop()
+                last = estimates.messages[-1]
+                self.assertEqual(last.valid, target_frame == "strut", last.reason)
+                if last.valid:
+                    self.assertAlmostEqual(last.damping_to_mass, 3.0, delta=0.31)
 
     def test_estimates_are_those_of_the_drive(self):
         last = self.la[max(self.la)]

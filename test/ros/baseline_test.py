@@ -133,7 +133,7 @@ class BaselineTest(unittest.TestCase):
         with self.monitor(nominal={"damping_to_mass": 3.0}) as monitor:
             self.assertNotEqual(monitor.wait_for_end(), 0)
             self.assertIn("baseline_file", monitor.output())
-            self.assertIn("must be one of them", monitor.output())
+            self.assertIn("must be one of them: take nominal, which identify -o writes, out", monitor.output())
 
 
 if __name__ == "__main__":

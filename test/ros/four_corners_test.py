@@ -59,14 +59,18 @@ class FourCornersTest(unittest.TestCase):
         self.coupling.stop()
 
     def test_the_worn_corner_is_named_and_its_branch_of_the_tree_is_not_ok(self):
+        diagnostics = Collector("/diagnostics", DiagnosticArray)
         with launch("four_corners_simulation.launch", worn=WORN, worn_fraction=FRACTION, real_time_factor=4,
                     duration=3600):
             named = self.comparison.wait_for(lambda message: message.level == CornerComparison.WARN, "a warning")
             self.tree.wait_for(is_as_expected, "every branch, the worn corner's not OK")
             state = rosgraph.Master(rospy.get_name()).getSystemState()
             driven = len(self.comparison.messages)
+            said = {status.message for array in list(diagnostics.messages) for status in array.status}
+            diagnostics.stop()
             rosnode.kill_nodes(["/simulator"])
             wait_until(lambda: any(map(is_undecided, self.comparison.messages[driven:])), "silent sensors that tell nothing")
+        self.assertFalse([message for message in said if "no reading accepted" in message], "while all sensors arrive")
         self.assertEqual(tuple(named.corners), CORNERS)
         for corner, verdict in zip(named.corners, bytes(named.verdicts)):
             self.assertEqual(verdict, CornerComparison.DAMPER if corner == WORN else CornerComparison.ALIKE, corner)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What /diagnostics says of the input: how often, and when a sensor is silent or the settings do not fit."""
 import itertools
+import math
 import unittest
 
 import rospy
@@ -152,6 +153,15 @@ class InputDiagnosticsTest(unittest.TestCase):
             after = len(drive.diagnostics.messages)
             status = drive.input_status(lambda s: "readings rejected" not in s.message, after=after)
             self.assertEqual((status.level, status.message), (DiagnosticStatus.WARN, "no usable pair of readings yet"))
+            drive.stop()
+
+    def test_a_wrong_axis_is_named(self):
+        with load_monitor("sideways", {"sample_period": PERIOD, "unsprung_axis": "y"}):
+            drive = drive_for("sideways")
+            publish(drive, 1200, lambda index, imu: setattr(imu.linear_acceleration, "y", 0.1 * math.sin(index)))
+            status = drive.input_status(lambda s: "is on another axis" in s.message)
+            self.assertEqual(status.level, DiagnosticStatus.WARN)
+            self.assertIn("gravity of the unsprung IMU is on another axis: give unsprung_axis: z", status.message)
             drive.stop()
 
     def test_horizon_too_short_for_the_measured_period_is_an_error_until_reset(self):

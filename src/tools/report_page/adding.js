@@ -27,13 +27,23 @@ function effectsRequest({parameters, effects}) {
                          '';
 }
 
+/** The options of a command that say what is read, and how: every command on such bags needs them. */
+const optionsOfReading = command =>
+    (command.match(/ --(config|set|sprung-topic|unsprung-topic)[ =]('[^']*'|\S+)/g) || []).join('');
+
+/** A file, as a shell takes it, for roslaunch. */
+const fromAnywhere = path => (/^'?\//.test(path) ? path : `$PWD/${path}`);
+
 /** What to type: title and text. */
 function commandsOf(findings) {
-  const {vehicle, bags} = findings;
+  const {vehicle, bags, origin} = findings;
+  const given = optionsOfReading(origin.command);
+  const [, config] = given.match(/ --config[ =]('[^']*'|\S+)/) || [];
+  const settings = config ? ` config:=${fromAnywhere(config)}` : '';
   const tool = 'rosrun suspension_health_monitor suspension_bag', launch = 'roslaunch suspension_health_monitor';
   const diagnose = [`${tool} diagnose`, ...bags.map(shellQuoted)].join(' ');
-  const ofVehicle = vehicle ? ` --vehicle ${shellQuoted(vehicle.file)}` : '';
-  const of = vehicle ? `${ofVehicle} --strut ${vehicle.strut}` : '';
+  const ofVehicle = (vehicle ? ` --vehicle ${shellQuoted(vehicle.file)}` : '') + given;
+  const of = ofVehicle + (vehicle ? ` --strut ${vehicle.strut}` : '');
   const file = vehicle ? `${vehicle.strut}.yaml` : 'model.yaml', node = `/${vehicle ? vehicle.strut : 'monitor'}`;
   const request = effectsRequest(findings);
   return [
@@ -47,10 +57,14 @@ function commandsOf(findings) {
     vehicle ?
         [
           'Live from the start, with models of all struts',
-          `${diagnose}${ofVehicle} -o models.yaml\n${
-              launch} vehicle.launch vehicle:=/path/to/my_vehicle.yaml model_file:=$PWD/models.yaml`
+          `${diagnose}${ofVehicle} -o models.yaml\n${launch} vehicle.launch vehicle:=${
+              fromAnywhere(shellQuoted(vehicle.file))}${settings} model_file:=$PWD/models.yaml`
         ] :
-        ['Live from the start', `${launch} monitor.launch config:=$PWD/my_strut.yaml model_file:=$PWD/${file}`]
+        [
+          'Live from the start',
+          `${launch} monitor.launch sprung_imu:=${origin.topics[0]} unsprung_imu:=${origin.topics[1]}${
+              settings} model_file:=$PWD/${file}`
+        ]
   ];
 }
 

@@ -84,10 +84,10 @@ function quantityWithDeviation(value, stddev, unit) {
 const typeset = sentence =>
     sentence.replace(/\^(-?\d+)/g, (_, digits) => superscript(digits)).replace(/(^|[\s(])-(?=\d)/g, '$1−');
 
-function percent(value) {
+function percent(value, whole = 9.95) {
   if (!isNumber(value)) return '–';
   return `${
-      (Math.abs(value) < 9.95 ? value.toFixed(1) : value.toFixed(0))
+      (Math.abs(value) < whole ? value.toFixed(1) : value.toFixed(0))
           .replace(/^-(0(\.0+)?)$/, '$1')
           .replace('-', '−')}\u00a0%`;
 }

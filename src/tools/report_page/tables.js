@@ -43,7 +43,7 @@ function rankingSection(findings) {
         element(
             'td', {class: 'error'}, `${rounded(ranked.held_out_rmse * scale.factor)} ${scale.unit}`,
             bar(ranked.held_out_rmse / longest, floor / longest, chosen ? 'after' : 'floor')),
-        element('td', {class: 'number'}, percent(ranked.error_removed_percent)),
+        element('td', {class: 'number'}, percent(ranked.error_removed_percent, Infinity)),
         element('td', {class: 'minor'}, ranked.significant ? 'yes' : 'no'),
         element(
             'td', {class: 'number minor'},

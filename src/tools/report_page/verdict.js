@@ -89,12 +89,6 @@ function nextSteps(findings) {
                         null;
 }
 
-/** How much of the error goes away [%]: of its mean square, less that of the noise where the noise is the smaller. */
-function avoidableRemoved({base, extended, noise_floor: floor}) {
-  const least = Math.min(floor, extended.held_out_rmse) ** 2;
-  return 100 * (1 - (extended.held_out_rmse ** 2 - least) / (base.held_out_rmse ** 2 - least));
-}
-
 function keyFigures(findings) {
   const {base, extended, noise_floor: floor, structured_share: structure} = findings.search;
   const one = (title, value, unit, tone) => element(
@@ -106,9 +100,8 @@ function keyFigures(findings) {
   if (extended) figures.push(one('error with the effect', error(extended.held_out_rmse), scale.unit, 'after'));
   figures.push(one('what sensor noise alone leaves, about', error(floor), scale.unit, 'floor'));
   if (extended) {
-    const removed = avoidableRemoved(findings.search);
-    figures.push(
-        one('of the avoidable error removed', removed > 99.5 ? '> 99' : rounded(Math.max(0, removed), 2), '%', 'good'));
+    const removed = 100 * (1 - (extended.held_out_rmse / base.held_out_rmse) ** 2);
+    figures.push(one('of the error removed', percent(removed, Infinity), '', 'good'));
   } else {
     figures.push(one('of the error is no noise, about', rounded(100 * structure, 2), '%'));
   }
