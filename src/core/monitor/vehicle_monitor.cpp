@@ -89,12 +89,20 @@ void VehicleMonitor::addReading(const VehicleChannels& vehicle, const VehicleRea
     blocks_.emplace(vehicle, options, toSeconds(period_));
   }
   const TopEstimate* estimate = blocks_->push(reading);
+  if (blocks_->hasDeadGyro()) return takeDeadGyro();
   if (estimate == nullptr) return;
   if (estimate->strut + 1 == numStruts() || !decoupler_) learnRows();
   if (!isCoupled()) return;
-  if (blocks_->hasDeadGyro()) mistake_ = {VehicleMistake::Kind::kDeadGyro};
   if (numStruts() >= kFewestToCompare) struts_[estimate->strut].setOthers(sharedByOthers(estimate->strut));
   struts_[estimate->strut].takeEstimate(*estimate, modelStddev(*estimate));
+}
+
+// No block tells any more that the newest estimates are no longer to be trusted.
+void VehicleMonitor::takeDeadGyro() {
+  if (mistake_.kind == VehicleMistake::Kind::kDeadGyro) return;
+  mistake_ = {VehicleMistake::Kind::kDeadGyro};
+  for (std::size_t i = 0; i < struts_.size(); ++i)
+    if (const TopEstimate* newest = blocks_->estimate(i)) struts_[i].takeEstimate(*newest, modelStddev(*newest));
 }
 
 // The least that all of them have: a worn one among them has no say.
@@ -177,7 +185,7 @@ void VehicleMonitor::fitBody() {
 }
 
 void VehicleMonitor::fitRows() {
-  mistake_ = blocks_->hasDeadGyro() ? VehicleMistake{VehicleMistake::Kind::kDeadGyro} : claims_->found();
+  mistake_ = claims_->found();
   by_links_ = claims_->byLinks();
   claims_.reset();
   BodyRows rows;

@@ -150,8 +150,9 @@ const TopEstimate* VehicleBlocks::work() {
 void VehicleBlocks::takeBlock() {
   const long half = next_half_++;
   if (!spectra_->isWhole(half)) return;
-  for (std::size_t i = 0; i < size(); ++i) spectra_->fill(i, half, estimators_[i].next());
   if (vehicle_.numTopsOfBody() > 0) gyro_.add(spectra_->bodyPowers(half));
+  if (gyro_.isDead()) return;
+  for (std::size_t i = 0; i < size(); ++i) spectra_->fill(i, half, estimators_[i].next());
   if (!isAlone()) {
     fillNeighbours();
     predict(0);

@@ -23,13 +23,14 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 }  // namespace
 
 VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s,
-                             const StrutPlaces& places, int most_blocks)
+                             const StrutPlaces& places, int most_blocks, bool gyro_died)
     : n_(struts),
       forces_(forces),
       s_(s),
       places_(places),
       columns_(s.size(), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
-      products_(columns_.size()) {
+      products_(columns_.size()),
+      gyro_died_(gyro_died) {
   whole_.setZero(2 * n_, 2 * n_);
   measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
   by_links_.setZero(n_, 2);
@@ -166,7 +167,7 @@ bool VehicleClaims::work() {
 }
 
 bool VehicleClaims::begins() {
-  if (hasDeadGyro())
+  if (gyro_died_ || hasDeadGyro())
     found_.kind = Kind::kDeadGyro;
   else if (blocks_ < int{kFewestForScatter} || n_ < 2)
     found_.kind = Kind::kTooLittle;

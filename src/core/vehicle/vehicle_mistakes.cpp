@@ -52,14 +52,12 @@ bool VehicleMistake::isContradiction() const {
   }
 }
 
-// At the bounce and below a body follows its wheels, in pitch and roll as in heave. The gyro may have died during the
-// drive, so that only the newest half of the blocks counts.
+// At the bounce and below a body follows its wheels, in pitch and roll as in heave.
 bool VehicleClaims::hasDeadGyro() const {
-  const Eigen::Index count = (blocks_ + 1) / 2;
-  if (places_.empty() || count < int{kFewestForScatter} / 2) return false;
+  if (places_.empty() || blocks_ < int{kFewestForScatter}) return false;
   Eigen::MatrixXd wheels = Eigen::MatrixXd::Zero(n_, n_), tops = wheels;
   for (const Eigen::MatrixXcd& columns : columns_) {
-    const auto wheel = columns.topLeftCorner(n_, count), top = columns.block(n_, 0, n_, count);
+    const auto wheel = columns.topLeftCorner(n_, blocks_), top = columns.block(n_, 0, n_, blocks_);
     const Eigen::MatrixXcd of_wheels = wheel * wheel.adjoint(), both = top * wheel.adjoint();
     wheels += of_wheels.real();
     tops += (both * pseudoInverse(of_wheels) * both.adjoint()).real();  // that goes with them

@@ -83,7 +83,7 @@ VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
   const std::size_t num_forces = vehicle_.known_forces.size();
-  VehicleClaims claims(n, num_forces, s, of_body_imu, estimators_.front().count());
+  VehicleClaims claims(n, num_forces, s, of_body_imu, estimators_.front().count(), gyro_.isDead());
   VehicleClaims::Spectra wheels, tops;
   Eigen::ArrayXXcd forces(s.size(), num_forces);
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);

@@ -102,6 +102,7 @@ class VehicleMonitor {
   void fitRows();
   void beginStruts();
   void takeModels();
+  void takeDeadGyro();
   std::optional<LogChange> sharedByOthers(std::size_t strut) const;
   Eigen::Vector2d modelStddev(const TopEstimate& estimate) const;
 

@@ -14,13 +14,12 @@ class GyroCheck {
  public:
   /// @param powers  of a_z, w_x, w_y in the band of a block.
   void add(const std::array<double, 3>& powers) {
-    const bool moves = usual_.weight() >= kFewestForScatter && powers[0] > kSmall * usual_.mean(0);
-    const auto is_low = [&](std::size_t axis) { return powers[axis] < square(kSmall) * usual_.mean(axis); };
-    is_dead_ = moves && (is_low(1) || is_low(2));
-    usual_.add(powers);
+    const auto isLow = [&](std::size_t axis) { return powers[axis] < square(kSmall) * usual_.mean(axis); };
+    if (usual_.weight() >= kFewestForScatter && powers[0] > kSmall * usual_.mean(0)) is_dead_ = isLow(1) || isLow(2);
+    if (!is_dead_) usual_.add(powers);
   }
 
-  /// @return true if it was so in the newest block.
+  /// @return true if it was so in the newest block in which the body moved.
   bool isDead() const { return is_dead_; }
 
  private:

@@ -87,7 +87,7 @@ class VehicleBlocks {
   /// @param of_body_imu  where the tops are, if what is given as theirs was made of the body's IMU; else empty.
   VehicleClaims claims(const StrutPlaces& of_body_imu) const;
 
-  /// @return true if the gyro of the body's IMU has died, by the newest block.
+  /// @return true if the gyro of the body's IMU has died: blocks are kept out as long as it is dead.
   bool hasDeadGyro() const { return gyro_.isDead(); }
 
   /// Another drive: nothing is known any more, but to overTheDrive().

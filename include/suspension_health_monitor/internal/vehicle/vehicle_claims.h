@@ -56,8 +56,9 @@ class VehicleClaims {
   /// @param s  of the bins of a block [rad/s].
   /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.
   /// @param most_blocks  that are added.
+  /// @param gyro_died  after them, by GyroCheck.
   VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s, const StrutPlaces& places,
-                int most_blocks);
+                int most_blocks, bool gyro_died);
 
   /// Adds the next older block.
   /// @param wheels, tops  of w'' and z''.  @param forces  H_2 of the known forces, bins by forces.
@@ -128,6 +129,7 @@ class VehicleClaims {
   Eigen::ArrayXXd by_links_;
   double least_ = 0.0;  // that a hypothesis leaves
   int blocks_ = 0;
+  bool gyro_died_;
   VehicleMistake found_;
 };
 
