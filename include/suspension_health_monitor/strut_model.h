@@ -55,8 +55,7 @@ struct StrutModel {
   /// @return z'' [m/s^2].
   double force(double travel, double travel_rate, double time, const Memory* memory) const {
     double sum = damping_to_mass * travel_rate + stiffness_to_mass * travel;
-    for (std::size_t j = 0; j < effects.size(); ++j)
-      sum += effects[j].force({travel, travel_rate, time, memory[j]});
+    for (std::size_t j = 0; j < effects.size(); ++j) sum += effects[j].force({travel, travel_rate, time, memory[j]});
     return sum;
   }
 
