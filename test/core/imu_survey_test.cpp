@@ -55,7 +55,8 @@ TEST(ImuSurvey, CountsWhatIsMissing) { EXPECT_NEAR(survey({0.0, 0.0, 9.81}, 0.1)
 TEST(ImuSurvey, FaultsHaveTheirSentence) {
   EXPECT_NE(describeFault(survey({0.0, 0.0, 9.81}, 0.1), 2, 1.0).find("of the readings are missing"),
             std::string::npos);
-  EXPECT_NE(describeFault(survey({0.0, 0.0, 1.0}), 2, 0.01).find("noise"), std::string::npos);
+  EXPECT_NE(describeFault(survey({0.0, 0.0, 0.5}), 2, 0.01).find("noise"), std::string::npos);  // gravity is taken off
+  EXPECT_NE(describeFault(survey({0.0, 0.0, 1.0}), 2, 1.0).find("1.00 m/s^2 instead of 9.81"), std::string::npos);
   EXPECT_NE(describeFault(survey({0.0, 0.0, 19.62}), 2, 1.0).find("19.62 m/s^2 instead of 9.81"), std::string::npos);
   EXPECT_NE(describeFault(survey({0.0, 5.0, 8.44}), 2, 1.0).find("leans by 31 degrees"), std::string::npos);
   EXPECT_NE(describeFault(ImuSurvey(), 2, 1.0).find("too few messages"), std::string::npos);
