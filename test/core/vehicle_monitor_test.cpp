@@ -48,6 +48,32 @@ TEST(VehicleMonitor, AccusesTheCornerThatLosesItsDampingAndNoOther) {
   EXPECT_LT(error_at, kLoss + 30.0);
 }
 
+/// How long each strut of a sedan was at WARN or ERROR, and what was said last.
+struct Warnings {
+  std::array<double, 4> seconds{};
+  std::array<HealthReport, 4> last;
+};
+
+/// @param baselines  of the struts; empty: they are learned.
+/// @param over_the_drive  takes the estimates of the whole drive.
+Warnings warningsOf(const Vehicle& sedan, double seconds, const std::vector<Baseline>& baselines = {},
+                    std::vector<StrutEstimate>* over_the_drive = nullptr) {
+  constexpr double kPeriod = 0.01;
+  const StrutDrives drive = strutDrives(sedan, vehicleDrive(seconds));
+  Warnings warnings;
+  VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(kPeriod)),
+                         [&](std::size_t strut, const MonitorReport& report) {
+                           const HealthLevel level = report.health.level;
+                           const bool warns = level == HealthLevel::kWarn || level == HealthLevel::kError;
+                           warnings.seconds[strut] += warns ? kPeriod : 0.0;
+                           warnings.last[strut] = report.health;
+                         });
+  for (std::size_t i = 0; i < baselines.size(); ++i) monitor.setBaseline(i, baselines[i]);
+  for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+  for (std::size_t i = 0; over_the_drive != nullptr && i < 4; ++i) over_the_drive->push_back(monitor.overTheDrive(i));
+  return warnings;
+}
+
 // Dampers that soften together while they warm, by less than the error threshold, and one that softens beyond that.
 TEST(VehicleMonitor, TakesWhatAllDampersShareForTheirTemperature) {
   constexpr double kWarm = 0.8, kWornToo = 0.72, kFrom = 100.0, kTo = 160.0;
@@ -59,16 +85,7 @@ TEST(VehicleMonitor, TakesWhatAllDampersShareForTheirTemperature) {
       strut.ramp_end = kTo;
     }
     if (is_one_worn) vehicle.struts[1].damping_end_fraction = kWornToo * kWarm;
-    const StrutDrives drive = strutDrives(vehicle, vehicleDrive(260.0));
-    std::array<double, 4> warned{};
-    std::array<HealthReport, 4> last;
-    VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)),
-                           [&](std::size_t strut, const MonitorReport& report) {
-                             const HealthLevel level = report.health.level;
-                             warned[strut] += level == HealthLevel::kWarn || level == HealthLevel::kError ? 0.01 : 0.0;
-                             last[strut] = report.health;
-                           });
-    for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
+    const auto [warned, last] = warningsOf(vehicle, 260.0);
     for (std::size_t i = 0; i < 4; ++i) {
       if (is_one_worn && i == 1) {
         EXPECT_EQ(last[i].level, HealthLevel::kError);
@@ -85,42 +102,33 @@ TEST(VehicleMonitor, TakesWhatAllDampersShareForTheirTemperature) {
 
 // The first judgement of a strut comes before those of the others.
 TEST(VehicleMonitor, RaisesNoLevelForDampersThatAreWarmFromTheStart) {
-  constexpr double kWarm = 0.8;
-  std::vector<StrutEstimate> healthy;
-  for (const double softer : {1.0, kWarm}) {
-    Vehicle vehicle = namedVehicle("sedan");
+  constexpr double kWarm = 0.8, kSeconds = 60.0;
+  Vehicle vehicle = namedVehicle("sedan");
+  const auto soften = [&](double fraction) {
     for (VehicleStrut& strut : vehicle.struts) {
-      strut.damping_end_fraction = softer;
+      strut.damping_end_fraction = fraction;
       strut.ramp_start = strut.ramp_end = 0.0;
     }
-    const StrutDrives drive = strutDrives(vehicle, vehicleDrive(60.0));
-    std::array<int, 4> raised{};
-    std::array<HealthReport, 4> last;
-    VehicleMonitor monitor(std::vector<MonitorSettings>(4, settingsAt(0.01)),
-                           [&](std::size_t strut, const MonitorReport& report) {
-                             const HealthLevel level = report.health.level;
-                             raised[strut] += level == HealthLevel::kWarn || level == HealthLevel::kError ? 1 : 0;
-                             last[strut] = report.health;
-                           });
-    for (std::size_t i = 0; i < healthy.size(); ++i) {
-      Baseline baseline;
-      baseline.damping_to_mass = healthy[i].damping_to_mass;
-      baseline.stiffness_to_mass = healthy[i].stiffness_to_mass;
-      baseline.damping_to_mass_stddev = healthy[i].damping_to_mass_stddev;
-      baseline.stiffness_to_mass_stddev = healthy[i].stiffness_to_mass_stddev;
-      monitor.setBaseline(i, baseline);
-    }
-    for (std::size_t k = 0; k < drive.front().samples.size(); ++k) monitor.addSample(sampleOf(drive, k));
-    for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_EQ(raised[i], 0) << i;
-      if (softer == 1.0) {
-        healthy.push_back(monitor.overTheDrive(i));
-        ASSERT_TRUE(healthy.back().valid());
-      } else {
-        ASSERT_TRUE(last[i].shared_damping_change) << i << describe(last[i]);
-        EXPECT_NEAR(*last[i].shared_damping_change, kWarm - 1.0, 0.05);
-      }
-    }
+  };
+  soften(1.0);
+  std::vector<StrutEstimate> healthy;
+  const Warnings cold = warningsOf(vehicle, kSeconds, {}, &healthy);
+  std::vector<Baseline> baselines;
+  for (const StrutEstimate& estimate : healthy) {
+    ASSERT_TRUE(estimate.valid());
+    Baseline& baseline = baselines.emplace_back();
+    baseline.damping_to_mass = estimate.damping_to_mass;
+    baseline.stiffness_to_mass = estimate.stiffness_to_mass;
+    baseline.damping_to_mass_stddev = estimate.damping_to_mass_stddev;
+    baseline.stiffness_to_mass_stddev = estimate.stiffness_to_mass_stddev;
+  }
+  soften(kWarm);
+  const auto [warned, last] = warningsOf(vehicle, kSeconds, baselines);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(cold.seconds[i], 0.0) << i;
+    EXPECT_EQ(warned[i], 0.0) << i;
+    ASSERT_TRUE(last[i].shared_damping_change) << i << describe(last[i]);
+    EXPECT_NEAR(*last[i].shared_damping_change, kWarm - 1.0, 0.05);
   }
 }
 

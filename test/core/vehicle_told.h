@@ -15,6 +15,7 @@ struct Told {
   VehicleMistake mistake;
   std::optional<BodyFitResult> body;
   std::vector<std::optional<WindowEstimate>> over_the_drive;
+  std::optional<double> gyro_died;  // [s] of the drive, when the blocks first said so
 };
 
 inline vehicle_drive::Drive shortDrive(double seconds = 60.0) {
@@ -58,6 +59,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
       keep(blocks.push({Sensor::kWheel, i, stamp, {kGravity + record.wheel[i][k]}}));
     }
     if (drive.pull > 0.0) keep(blocks.push({Sensor::kForce, 0, stamp, {record.pull[k]}}));
+    if (!told.gyro_died && blocks.hasDeadGyro()) told.gyro_died = static_cast<double>(k) / drive.rate;
   }
   for (std::size_t i = 0; i < n; ++i) told.over_the_drive.push_back(blocks.overTheDrive(i));
   told.mistake = blocks.claims().find();

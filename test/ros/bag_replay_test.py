@@ -47,7 +47,7 @@ def read_levels(path):
 
 
 def turn_wheel_imu(source, path):
-    """The bag as of a robot whose wheel's IMU hangs upside down, as its latched /tf_static says."""
+    """The same drive of a robot whose wheel IMU is mounted upside down; the latched /tf_static of the bag says so."""
     frames = [TransformStamped(header=Header(frame_id="strut"), child_frame_id=frame, transform=Transform(rotation=rotation))
               for frame, rotation in (("sprung_imu", Quaternion(w=1.0)), ("unsprung_imu", Quaternion(x=1.0)))]
     latched = {"topic": "/tf_static", "type": TFMessage._type, "md5sum": TFMessage._md5sum, "latching": "1",

@@ -7,11 +7,11 @@
 namespace suspension_health_monitor {
 namespace {
 
-// A fit may find a strut where there is none. In noise, as of a vehicle at rest, p parameters explain p of the numbers
-// of half overlapped blocks by chance. And where something else moves the body at one frequency, as the wind rocks a
-// parked car, the body drags its wheel along as if by a strut with hardly any damper: then the body moves more than the
-// resonance of a strut with a damping ratio of 0.115 would make it, or what is not explained of its motion has more
-// than half of the power of the wheel's motion.
+// A fit may find a strut where there is none. While the vehicle is at rest there is only noise, and p parameters
+// explain p of the numbers of half overlapped blocks by chance. And where something else moves the body at one
+// frequency, as the wind rocks a parked car, the body drags its wheel along as if by a strut with hardly any damper:
+// then the body moves more than the resonance of a strut with a damping ratio of 0.115 would make it, or what is not
+// explained of its motion has more than half of the power of the wheel's motion.
 bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
   const double values = band.size() * (estimate.blocks + 1.0);
   const double least_explained = 2.0 * static_cast<double>(estimate.theta.size()) / values;

@@ -15,8 +15,8 @@ void checkThresholds(const std::string& parameter, double warn, double error) {
     refuse("health/" + parameter + "_error", error, "", "at least health/" + parameter + "_warn = " + numberText(warn));
 }
 
-// Mean time between two early warnings of a healthy strut, over a window of the fewest blocks of the usual length, as
-// longer windows come at longer spacings.
+// Mean number of windows between two early warnings of a healthy strut: 1e6 s over the shortest window, 4 s. Longer
+// windows come at longer spacings.
 constexpr double kWindowsBetweenFalseAlarms = 1e6 / 4.0;
 
 // |ln(1 + change)| to 1 % for changes up to a third; its significance needs no more.

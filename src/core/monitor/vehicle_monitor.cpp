@@ -12,9 +12,9 @@
 namespace suspension_health_monitor {
 namespace {
 
-// Half of the blocks are new then, of those that there are or that are kept.
 constexpr std::size_t kFewestToCompare = 3;  // struts: of two nobody knows which one has changed
 
+// Half of the blocks are new then, of those that there are or that are kept.
 constexpr Stamp kBodyFirst = std::chrono::seconds(5), kBodyEvery = std::chrono::seconds(30);
 
 }  // namespace
@@ -97,7 +97,7 @@ void VehicleMonitor::addReading(const VehicleChannels& vehicle, const VehicleRea
   struts_[estimate->strut].takeEstimate(*estimate, modelStddev(*estimate));
 }
 
-// No block tells any more that the newest estimates are no longer to be trusted.
+// From now on blocks are kept out, so that no new estimate would end the validity of the newest ones.
 void VehicleMonitor::takeDeadGyro() {
   if (mistake_.kind == VehicleMistake::Kind::kDeadGyro) return;
   mistake_ = {VehicleMistake::Kind::kDeadGyro};

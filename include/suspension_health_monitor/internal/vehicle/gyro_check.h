@@ -23,7 +23,7 @@ class GyroCheck {
   bool isDead() const { return is_dead_; }
 
  private:
-  RunningMeans<3> usual_{0.99};  // two minutes and a half of usual blocks
+  RunningMeans<3> usual_{0.99};  // of the last hundred blocks
   bool is_dead_ = false;
 };
 
