@@ -88,9 +88,11 @@ class Separator {
       for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));
     }
     const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
-    const auto of_body_imu = static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise));
-    const VehicleMistake mistake =
-        blocks.claims(of_body_imu == names.size() ? drives_.front().places : StrutPlaces{}).find();
+    const StrutPlaces& places = drives_.front().places;
+    TopsOfBody of_body(names.size());
+    if (static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise)) == names.size())
+      of_body.assign(places.begin(), places.end());
+    const VehicleMistake mistake = blocks.claims(of_body).find();
     const bool are_known = rows && rows->areKnown() && !mistake.isContradiction();
     std::optional<BodyFitResult> body;
     if (are_known) {

@@ -145,17 +145,20 @@ TEST(VehicleClaims, TellWhereTheBodysImuStands) {
 }
 
 TEST(VehicleClaims, SayThatAStrutIsMissing) {
-  for (const char* made : {"robot", "sedan"}) {
-    vehicle_drive::Vehicle vehicle = vehicle_drive::made(made, 1);
-    Record record = vehicle_drive::drive(vehicle, shortDrive());
-    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(2), BlockOptions{}, 0.01);
-    for (std::size_t k = 0; k < record.wheel.front().size(); ++k)
-      for (const std::size_t i : {0u, 1u}) {
-        blocks.push({Sensor::kTop, i, fromSeconds(0.01 * static_cast<double>(k)), {record.body[i][k]}});
-        blocks.push({Sensor::kWheel, i, fromSeconds(0.01 * static_cast<double>(k)), {record.wheel[i][k]}});
-      }
-    EXPECT_EQ(blocks.claims().find().kind, Kind::kOthers) << made;
-  }
+  for (const char* made : {"robot", "sedan"})
+    for (const std::size_t known : {2u, 3u}) {
+      vehicle_drive::Vehicle vehicle = vehicle_drive::made(made, 1);
+      Record record = vehicle_drive::drive(vehicle, shortDrive());
+      VehicleBlocks blocks(VehicleChannels::ofAccelerometers(known), BlockOptions{}, 0.01);
+      for (std::size_t k = 0; k < record.wheel.front().size(); ++k)
+        for (std::size_t i = 0; i < known; ++i) {
+          blocks.push({Sensor::kTop, i, fromSeconds(0.01 * static_cast<double>(k)), {record.body[i][k]}});
+          blocks.push({Sensor::kWheel, i, fromSeconds(0.01 * static_cast<double>(k)), {record.wheel[i][k]}});
+        }
+      VehicleClaims claims = blocks.claims();
+      EXPECT_EQ(claims.find().kind, Kind::kOthers) << made << " " << known;
+      EXPECT_GT(claims.modelErrors().minCoeff(), kWorthHaving) << made << " " << known;
+    }
 }
 
 // Blocks last two seconds, one begins every second.
@@ -179,13 +182,15 @@ TEST(VehicleBlocks, KnowWithinABlockAndAHalfThatAnAxisOfTheGyroDies) {
 }
 
 TEST(VehicleClaims, OfADeadGyroAreOfABodyThatDoesNotTurn) {
-  for (const bool dies : {false, true})
+  enum How { kIsDead, kDies, kIsDeadBesideOwnSensor };
+  for (const How how : {kIsDead, kDies, kIsDeadBesideOwnSensor})
     for (const std::size_t axis : {1u, 2u}) {  // of Record::imu: rolling, pitching
-      const Told told = tell(vehicle_drive::made("robot", 1), byBody(), [&](Record& record, VehicleChannels&) {
+      const Told told = tell(vehicle_drive::made("robot", 1), byBody(), [&](Record& record, VehicleChannels& vehicle) {
         std::vector<double>& gyro = record.imu[axis];
-        std::fill(gyro.begin() + (dies ? static_cast<std::ptrdiff_t>(gyro.size() / 3) : 0), gyro.end(), 0.0);
+        std::fill(gyro.begin() + (how == kDies ? static_cast<std::ptrdiff_t>(gyro.size() / 3) : 0), gyro.end(), 0.0);
+        if (how == kIsDeadBesideOwnSensor) vehicle.struts.back().sprung = 0;
       });
-      EXPECT_EQ(told.mistake.kind, Kind::kDeadGyro) << axis << (dies ? " dies" : " is dead");
+      EXPECT_EQ(told.mistake.kind, Kind::kDeadGyro) << axis << " " << how;
     }
 }
 

@@ -55,7 +55,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
       keep(blocks.push(
           {Sensor::kBody, 0, stamp, {0.0, 0.0, kGravity + record.imu[0][k], record.imu[1][k], record.imu[2][k], 0.0}}));
     for (std::size_t i = 0; i < n; ++i) {
-      if (!drive.imu) keep(blocks.push({Sensor::kTop, i, stamp, {kGravity + record.body[i][k]}}));
+      if (channels.struts[i].sprung) keep(blocks.push({Sensor::kTop, i, stamp, {kGravity + record.body[i][k]}}));
       keep(blocks.push({Sensor::kWheel, i, stamp, {kGravity + record.wheel[i][k]}}));
     }
     if (drive.pull > 0.0) keep(blocks.push({Sensor::kForce, 0, stamp, {record.pull[k]}}));

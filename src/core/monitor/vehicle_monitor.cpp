@@ -186,7 +186,7 @@ void VehicleMonitor::fitBody() {
 
 void VehicleMonitor::fitRows() {
   mistake_ = claims_->found();
-  by_links_ = claims_->byLinks();
+  model_errors_ = claims_->modelErrors();
   claims_.reset();
   BodyRows rows;
   if (!blocks_->rows(rows)) return;
@@ -213,8 +213,8 @@ Eigen::Vector2d VehicleMonitor::modelStddev(const TopEstimate& estimate) const {
   if (mistake_.isContradiction()) return Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   if (!body_) return Eigen::Vector2d::Zero();
   const Eigen::Array2d own = estimate.theta.head<2>();
-  const Eigen::Array2d by_links = own * by_links_.row(estimate.strut).transpose();
-  return (body_->modelVariances(estimate.strut, own, estimate.frictionDamping()) + by_links.square()).sqrt();
+  const Eigen::Array2d of_rows = own * model_errors_.row(estimate.strut).transpose();
+  return (body_->modelVariances(estimate.strut, own, estimate.frictionDamping()) + of_rows.square()).sqrt();
 }
 
 StrutEstimate VehicleMonitor::overTheDrive(std::size_t strut) {

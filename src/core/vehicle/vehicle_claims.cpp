@@ -22,18 +22,22 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 
 }  // namespace
 
-VehicleClaims::VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s,
-                             const StrutPlaces& places, int most_blocks, bool gyro_died)
-    : n_(struts),
+VehicleClaims::VehicleClaims(std::size_t forces, const Eigen::ArrayXcd& s, const TopsOfBody& tops_of_body,
+                             int most_blocks, bool gyro_died)
+    : n_(tops_of_body.size()),
       forces_(forces),
       s_(s),
-      places_(places),
       columns_(s.size(), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
       products_(columns_.size()),
       gyro_died_(gyro_died) {
   whole_.setZero(2 * n_, 2 * n_);
   measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
-  by_links_.setZero(n_, 2);
+  model_errors_.setZero(n_, 2);
+  for (std::size_t i = 0; i < tops_of_body.size(); ++i) {
+    if (!tops_of_body[i]) continue;
+    of_body_.push_back(i);
+    places_.push_back(*tops_of_body[i]);
+  }
   in_step_ = measured_;
 }
 
@@ -133,7 +137,7 @@ VehicleMistake VehicleClaims::sameOrAlike() const {
   for (Eigen::Index i = 0; i < n_; ++i)
     for (Eigen::Index j = i + 1; j < n_; ++j) {
       if (notShared(whole_, i, j) < kRounding) return {Kind::kSameWheels, StrutPair(i, j)};
-      if (places_.empty() && notShared(whole_, n_ + i, n_ + j) < kRounding) return {Kind::kSameTops, StrutPair(i, j)};
+      if (!isByBody() && notShared(whole_, n_ + i, n_ + j) < kRounding) return {Kind::kSameTops, StrutPair(i, j)};
     }
   const Eigen::MatrixXd wheels = whole_.topLeftCorner(n_, n_), inverse = wheels.inverse();
   VehicleMistake found;
@@ -160,9 +164,13 @@ bool VehicleClaims::work() {
   else
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
-  // More of the motion that goes with the wheels is left than struts on links leave: 0.3 %.
-  if (found_.kind == Kind::kNone && filed_.unexplained > std::max(kWorthHaving, noiseShare() * noise_))
+  if (found_.isContradiction() || hypotheses_.empty()) return true;
+  // What goes with the wheels and no row explains may lie along any of the 2 n columns. Struts on links leave 0.1 %.
+  const double unexplained = std::max(0.0, found_.isDelay() ? least_ : filed_.unexplained);
+  const double error = std::sqrt(unexplained / (2.0 * static_cast<double>(n_)));
+  if (found_.kind == Kind::kNone && error > kWorthHaving && unexplained > noiseShare() * noise_)
     found_.kind = Kind::kOthers;
+  model_errors_ = (model_errors_.square() + square(error)).sqrt();
   return true;
 }
 
@@ -208,7 +216,7 @@ void VehicleClaims::judge(const Hypothesis& hypothesis) {
   const Eigen::ArrayXXd change = (fit(hypothesis, other.size).own / filed_.own - 1.0).abs();
   if (!(change.maxCoeff() > kLeastDifference)) return;
   if (other.isDelay() && std::abs(other.size) < kBlockTuning.least_delay) {
-    by_links_ = by_links_.max(change);
+    model_errors_ = model_errors_.max(change);
     return;
   }
   least_ = other.unexplained;

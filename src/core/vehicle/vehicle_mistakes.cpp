@@ -62,7 +62,9 @@ bool VehicleClaims::hasDeadGyro() const {
     wheels += of_wheels.real();
     tops += (both * pseudoInverse(of_wheels) * both.adjoint()).real();  // that goes with them
   }
-  const Eigen::MatrixXd motions = pseudoInverse(motionsOf(places_));
+  const Eigen::MatrixXd of_tops = pseudoInverse(motionsOf(places_));
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3, n_);
+  for (std::size_t i = 0; i < of_body_.size(); ++i) motions.col(of_body_[i]) = of_tops.col(i);
   const Eigen::ArrayXd passed = (motions * tops * motions.transpose()).diagonal().array() /
                                 (motions * wheels * motions.transpose()).diagonal().array();
   for (const std::size_t axis : {0u, 1u})
@@ -79,7 +81,7 @@ std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
       all.push_back(
           {Kind::kSwapped, {i, j}, {1.0}, [i, j](double, Mapping& m) { m.wheels.row(i).swap(m.wheels.row(j)); }});
   }
-  if (!places_.empty()) addPositions(all);
+  if (isByBody()) addPositions(all);
   addDelays(all);
   return all;
 }
@@ -120,11 +122,11 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
 void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
     all.push_back({Kind::kLateWheel, {i, i}, kDelays, [i](double size, Mapping& m) { m.delays[i] = size; }});
-    if (places_.empty())
+    if (!isByBody())
       all.push_back(
           {Kind::kLateTop, {i, i}, kDelays, [i, n = n_](double size, Mapping& m) { m.delays[n + i] = size; }});
   }
-  const Kind all_tops = places_.empty() ? Kind::kLateTops : Kind::kLateBody;
+  const Kind all_tops = isByBody() ? Kind::kLateBody : Kind::kLateTops;
   all.push_back({all_tops, {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
 }
 

@@ -78,12 +78,12 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   return rows;
 }
 
-VehicleClaims VehicleBlocks::claims(const StrutPlaces& of_body_imu) const {
+VehicleClaims VehicleBlocks::claims(const TopsOfBody& tops_of_body) const {
   const std::size_t n = size();
   const Modulation modulation(estimators_.front().equations().band());
   const Eigen::ArrayXcd s = modulation.s();
   const std::size_t num_forces = vehicle_.known_forces.size();
-  VehicleClaims claims(n, num_forces, s, of_body_imu, estimators_.front().count(), gyro_.isDead());
+  VehicleClaims claims(num_forces, s, tops_of_body, estimators_.front().count(), gyro_.isDead());
   VehicleClaims::Spectra wheels, tops;
   Eigen::ArrayXXcd forces(s.size(), num_forces);
   for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);

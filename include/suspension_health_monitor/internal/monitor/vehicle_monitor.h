@@ -115,7 +115,7 @@ class VehicleMonitor {
   std::optional<BodyFitResult> body_;
   std::optional<VehicleClaims> claims_;  // while they are worked through
   VehicleMistake mistake_{VehicleMistake::Kind::kTooLittle, {}};
-  Eigen::ArrayXXd by_links_;  // VehicleClaims::byLinks()
+  Eigen::ArrayXXd model_errors_;  // VehicleClaims::modelErrors()
   std::optional<Decoupler> decoupler_;
   std::vector<SuspensionMonitor> struts_;
   std::int64_t samples_ = 0;      // since the rows are known

@@ -83,9 +83,9 @@ class VehicleBlocks {
   double length() const { return length_; }  ///< T of the blocks [s]
 
   /// @return what the blocks kept say of the vehicle file, to be worked through. Allocates.
-  VehicleClaims claims() const { return claims(isByBody() ? vehicle_.places() : StrutPlaces{}); }
-  /// @param of_body_imu  where the tops are, if what is given as theirs was made of the body's IMU; else empty.
-  VehicleClaims claims(const StrutPlaces& of_body_imu) const;
+  VehicleClaims claims() const { return claims(vehicle_.topsOfBody()); }
+  /// @param tops_of_body  if what is given as the tops' was made of the body's IMU.
+  VehicleClaims claims(const TopsOfBody& tops_of_body) const;
 
   /// @return true if the gyro of the body's IMU has died: blocks are kept out as long as it is dead.
   bool hasDeadGyro() const { return gyro_.isDead(); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
+#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 
@@ -54,11 +55,10 @@ class VehicleClaims {
   using Spectra = std::array<Eigen::ArrayXXcd, 3>;  ///< H_p of p = 0, 1, 2, bins by struts
 
   /// @param s  of the bins of a block [rad/s].
-  /// @param places  of struts whose tops the body's IMU tells; empty: tops have sensors of their own.
   /// @param most_blocks  that are added.
   /// @param gyro_died  after them, by GyroCheck.
-  VehicleClaims(std::size_t struts, std::size_t forces, const Eigen::ArrayXcd& s, const StrutPlaces& places,
-                int most_blocks, bool gyro_died);
+  VehicleClaims(std::size_t forces, const Eigen::ArrayXcd& s, const TopsOfBody& tops_of_body, int most_blocks,
+                bool gyro_died);
 
   /// Adds the next older block.
   /// @param wheels, tops  of w'' and z''.  @param forces  H_2 of the known forces, bins by forces.
@@ -70,9 +70,10 @@ class VehicleClaims {
   /// @pre work() has returned true.
   const VehicleMistake& found() const { return found_; }
 
-  /// @return by strut the relative change of b1 and b0 by a delay that explains more of the motion, but is too small to
-  /// be a clock's: links and rubber turn phases by as much. b1 and b0 are not known better than that.
-  const Eigen::ArrayXXd& byLinks() const { return by_links_; }
+  /// @return by strut the relative standard deviation of b1 and b0 by what the rows lack: the change by a delay that
+  /// explains more of the motion, but is too small to be a clock's (links and rubber turn phases by as much), and what
+  /// goes with the wheels unexplained.
+  const Eigen::ArrayXXd& modelErrors() const { return model_errors_; }
 
   /// Does all portions.
   const VehicleMistake& find() {
@@ -99,6 +100,7 @@ class VehicleClaims {
   void judgeAsFiled();
   void judge(const Hypothesis& hypothesis);
   bool hasDeadGyro() const;
+  bool isByBody() const { return static_cast<Eigen::Index>(of_body_.size()) == n_; }
   Mapping asFiled() const;
   Eigen::MatrixXd moments(const Eigen::VectorXd& delays) const;
   /// The rows (B20) of the tops by least squares.
@@ -116,7 +118,8 @@ class VehicleClaims {
 
   Eigen::Index n_, forces_;
   Eigen::ArrayXcd s_;
-  StrutPlaces places_;
+  std::vector<Eigen::Index> of_body_;  // struts whose tops the body's IMU tells of
+  StrutPlaces places_;                 // of these
   // By bin, in a column per block, newest first: by p the wheels, then the tops; forces; of displacements.
   std::vector<Eigen::MatrixXcd> columns_;
   std::vector<Eigen::MatrixXcd> products_;  // by bin: of columns_, what goes with the wheels
@@ -126,7 +129,7 @@ class VehicleClaims {
   std::size_t next_ = 0;  // bin, then hypothesis
   Rows filed_{1.0, {}};   // of what goes with the wheels, by the file
   double noise_ = 0.0;    // share of the tops' motion that does not go with the wheels
-  Eigen::ArrayXXd by_links_;
+  Eigen::ArrayXXd model_errors_;
   double least_ = 0.0;  // that a hypothesis leaves
   int blocks_ = 0;
   bool gyro_died_;
