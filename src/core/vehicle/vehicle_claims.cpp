@@ -90,9 +90,12 @@ VehicleClaims::Rows VehicleClaims::fit(const Mapping& mapping, const Eigen::Matr
   const Eigen::MatrixXd rows = pseudoInverse(Eigen::MatrixXd(products.topLeftCorner(regressors, regressors))) * scores;
   const Eigen::ArrayXd total = products.diagonal().tail(n_).array();
   const Eigen::ArrayXd explained = (scores.array() * rows.array()).colwise().sum().transpose();
-  Rows result{(total > 0.0).select(1.0 - explained / total, 1.0).mean(), Eigen::ArrayXXd(n_, 2)};
+  Rows result{(total > 0.0).select(1.0 - explained / total, 1.0).mean(), Eigen::ArrayXXd(n_, 2), {}};
   result.own.col(0) = rows.topRows(n_).diagonal();
   result.own.col(1) = rows.middleRows(n_, n_).diagonal();
+  const Eigen::ArrayXd powers = products.diagonal().head(2 * n_).array();
+  result.moved = result.own.square() * Eigen::Map<const Eigen::ArrayXXd>(powers.data(), n_, 2);
+  result.moved.colwise() /= total;
   return result;
 }
 
@@ -165,12 +168,13 @@ bool VehicleClaims::work() {
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
   if (found_.isContradiction() || hypotheses_.empty()) return true;
-  // What goes with the wheels and no row explains may lie along any of the 2 n columns. Struts on links leave 0.1 %.
+  // What goes with the wheels and no row explains may lie along any of the 2 n columns, against what the strut's own
+  // column moves. Struts on links leave 0.1 %.
   const double unexplained = std::max(0.0, found_.isDelay() ? least_ : filed_.unexplained);
   const double error = std::sqrt(unexplained / (2.0 * static_cast<double>(n_)));
   if (found_.kind == Kind::kNone && error > kWorthHaving && unexplained > noiseShare() * noise_)
     found_.kind = Kind::kOthers;
-  model_errors_ = (model_errors_.square() + square(error)).sqrt();
+  model_errors_ = (model_errors_.square() + square(error) / filed_.moved.max(kRounding)).sqrt();
   return true;
 }
 

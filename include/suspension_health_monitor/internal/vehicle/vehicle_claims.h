@@ -107,6 +107,8 @@ class VehicleClaims {
   struct Rows {
     double unexplained;   ///< mean over the tops of the share of z'' that they leave
     Eigen::ArrayXXd own;  ///< b1_ii, b0_ii, by strut
+    /// Power of what these alone move, over that of the top, whatever the others move against it.
+    Eigen::ArrayXXd moved;
   };
   Rows fit(const Mapping& mapping, const Eigen::MatrixXd& moments) const;
   Rows fit(const Hypothesis& hypothesis, double size) const;
@@ -126,9 +128,9 @@ class VehicleClaims {
   Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
   Eigen::MatrixXd measured_, in_step_;      // sums over bins: of all that was measured, of products_
   std::vector<Hypothesis> hypotheses_;
-  std::size_t next_ = 0;  // bin, then hypothesis
-  Rows filed_{1.0, {}};   // of what goes with the wheels, by the file
-  double noise_ = 0.0;    // share of the tops' motion that does not go with the wheels
+  std::size_t next_ = 0;     // bin, then hypothesis
+  Rows filed_{1.0, {}, {}};  // of what goes with the wheels, by the file
+  double noise_ = 0.0;       // share of the tops' motion that does not go with the wheels
   Eigen::ArrayXXd model_errors_;
   double least_ = 0.0;  // that a hypothesis leaves
   int blocks_ = 0;
