@@ -15,6 +15,13 @@ constexpr double kPeriod = 0.01;  // [s]
 
 double signal(double t) { return std::sin(2.0 * M_PI * 4.0 * t) + 0.5 * std::sin(2.0 * M_PI * 11.0 * t); }
 
+/// As fast as filters let it be: as strong at all frequencies up to 0.4 of the rate.
+double fastSignal(double t) {
+  double sum = 0.0;
+  for (int i = 1; i <= 40; ++i) sum += std::sin(2.0 * M_PI * 0.987 * i * t + i * i);
+  return sum;
+}
+
 /// By how many periods the stamp of reading k is late.
 using Delay = std::function<double(int k, std::mt19937_64& random)>;
 
@@ -23,6 +30,7 @@ struct Way {
   double taken = 0.0;
   Delay stamped = [](int, std::mt19937_64&) { return 0.0; };
   double lost = 0.0;
+  double (*signal)(double) = suspension_health_monitor::signal;
 };
 
 Delay byChance(double deviation) {
@@ -56,7 +64,7 @@ Found run(const Way& way, int seed = 7, int readings = 20000) {
   for (int k = 1; k <= readings; ++k) {
     const double taken = kPeriod * (k + way.taken * normal(random));
     Stamp stamp = fromSeconds(taken + kPeriod * way.stamped(k, random));
-    const double value = signal(taken) + 0.01 * normal(random);
+    const double value = way.signal(taken) + 0.01 * normal(random);
     if (uniform(random) < way.lost) continue;
     if (stamp <= last) {
       clock.passOver();
@@ -91,6 +99,17 @@ TEST(StreamClock, KnowsWhenRegularReadingsWithIrregularStampsWereTaken) {
 
 TEST(StreamClock, TakesReadingsThatAreTakenIrregularlyAtTheirStamps) {
   for (const double taken : {0.02, 0.1, 0.2, 0.3}) EXPECT_LT(run({taken}).off, 1e-6) << taken;  // nanoseconds
+}
+
+// Of such motion a derivative by two readings shows little, but enough.
+TEST(StreamClock, KnowsByHalfAMinuteOfFastMotionWhenReadingsWereTaken) {
+  constexpr int kReadings = 3000;
+  const Delay late = [](int, std::mt19937_64& random) { return std::uniform_real_distribution<>(0.0, 0.5)(random); };
+  for (int seed = 1; seed <= 5; ++seed) {
+    const Found regular = run({0.0, late, 0.0, fastSignal}, seed, kReadings);
+    EXPECT_LT(regular.off, 0.15 * 0.5 / std::sqrt(12.0)) << seed;
+    EXPECT_LT(run({0.1, byChance(0.0), 0.0, fastSignal}, seed, kReadings).off, 1e-6) << seed;
+  }
 }
 
 // Of two or more that are lost in a row, which messages that wait may look like, one reading is put too early.

@@ -110,6 +110,35 @@ TEST(VehicleClaims, TellByHowMuchAStreamIsLate) {
              Kind::kLateBody, 0, 0.01);
 }
 
+// A delay that may be that of links, too, is not fitted.
+TEST(VehicleClaims, TellWhatADelayThatMayBeOfLinksChanges) {
+  for (const char* made : {"robot", "sedan"})
+    for (const double late : {-5e-4, 5e-4}) {
+      const vehicle_drive::Vehicle vehicle = vehicle_drive::made(made, 1);
+      const Told told = tell(vehicle, shortDrive(), {}, late);
+      EXPECT_EQ(told.mistake.kind, Kind::kNone);
+      for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
+        const WindowEstimate& estimate = *told.over_the_drive[i];
+        const Eigen::Array2d truth(vehicle.b1(i), vehicle.b0(i)), own = estimate.theta.head<2>();
+        const Eigen::Array2d variance = estimate.covariance.diagonal().head<2>().array() +
+                                        (own * told.by_links.row(static_cast<Eigen::Index>(i)).transpose()).square();
+        EXPECT_TRUE(((own - truth).abs() < 3.0 * variance.sqrt()).all())
+            << made << ' ' << late << ' ' << i << ": " << (own / truth).transpose() << " +- "
+            << (variance.sqrt() / truth).transpose();
+      }
+    }
+}
+
+TEST(VehicleClaims, NameAPositionThoughAllWheelsAreALittleLate) {
+  for (const double late : {-1e-3, -5e-4, 5e-4, 1e-3}) {
+    const auto nearer = [](Record&, VehicleChannels& vehicle) { vehicle.struts[2].position->x() *= 0.8; };
+    const VehicleMistake found = tell(vehicle_drive::made("robot", 1), byBody(), nearer, late).mistake;
+    EXPECT_EQ(found.kind, Kind::kAheadOfOne) << late;
+    EXPECT_EQ(found.struts.first, 2u) << late;
+    EXPECT_NEAR(found.size, 1.0 / 0.8, 0.05) << late;
+  }
+}
+
 TEST(VehicleClaims, TellWhatPositionsAreTimesTheFile) {
   for (const int axis : {0, 1}) {
     const VehicleMistake found =

@@ -13,6 +13,7 @@ namespace suspension_health_monitor {
 struct Told {
   std::vector<std::vector<TopEstimate>> estimates;  // by strut
   VehicleMistake mistake;
+  Eigen::ArrayXXd by_links;  // VehicleClaims::byLinks()
   std::optional<BodyFitResult> body;
   std::vector<std::optional<WindowEstimate>> over_the_drive;
   std::optional<double> gyro_died;  // [s] of the drive, when the blocks first said so
@@ -34,9 +35,9 @@ inline VehicleChannels channelsOf(const vehicle_drive::Vehicle& vehicle, const v
   return channels;
 }
 
-/// @param change  what the file says wrongly, or a sensor does.
+/// @param change  what the file says wrongly, or a sensor does.  @param late  the stamps of all wheels [s].
 inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Drive& drive,
-                 const std::function<void(vehicle_drive::Record&, VehicleChannels&)>& change = {}) {
+                 const std::function<void(vehicle_drive::Record&, VehicleChannels&)>& change = {}, double late = 0.0) {
   using Sensor = VehicleReading::Sensor;
   constexpr double kGravity = 9.81;
   vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
@@ -56,13 +57,15 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
           {Sensor::kBody, 0, stamp, {0.0, 0.0, kGravity + record.imu[0][k], record.imu[1][k], record.imu[2][k], 0.0}}));
     for (std::size_t i = 0; i < n; ++i) {
       if (channels.struts[i].sprung) keep(blocks.push({Sensor::kTop, i, stamp, {kGravity + record.body[i][k]}}));
-      keep(blocks.push({Sensor::kWheel, i, stamp, {kGravity + record.wheel[i][k]}}));
+      keep(blocks.push({Sensor::kWheel, i, stamp + fromSeconds(late), {kGravity + record.wheel[i][k]}}));
     }
     if (drive.pull > 0.0) keep(blocks.push({Sensor::kForce, 0, stamp, {record.pull[k]}}));
     if (!told.gyro_died && blocks.hasDeadGyro()) told.gyro_died = static_cast<double>(k) / drive.rate;
   }
   for (std::size_t i = 0; i < n; ++i) told.over_the_drive.push_back(blocks.overTheDrive(i));
-  told.mistake = blocks.claims().find();
+  VehicleClaims claims = blocks.claims();
+  told.mistake = claims.find();
+  told.by_links = claims.byLinks();
   if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit::of(n, channels.places()).fit(rows, blocks.rowsOfHalves());
   return told;
 }

@@ -11,35 +11,24 @@ namespace {
 
 constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};  // D
 const double kConvincing = std::log(1e3);                     // likelihood ratio, its logarithm
-constexpr double kFewest = 200.0;                             // rows, whose scatter is known within a tenth
-
-/// @return x' T by the readings `apart` before and after.
-double rateBy(std::ptrdiff_t apart, const double* x) { return (x[apart] - x[-apart]) / (2.0 * apart); }
 
 }  // namespace
 
 // Distances count from their mean: what the regular times of all these readings are off by displaces none against
-// another. The instrument has other readings' noise in it.
+// another.
 void SamplingTest::add(double value, double off) {
   values_.push(value);
   off_.push(off);
   if (++in_a_row_ < kWindow) return;
-  double mean = 0.0, e = 0.0, r = 0.0, instrument = 0.0;
+  double mean = 0.0, e = 0.0, r = 0.0;
   for (std::size_t i = 0; i < kDifference.size(); ++i) mean += off_.window()[kReach + i];
   mean /= kDifference.size();
   for (std::size_t i = 0; i < kDifference.size(); ++i) {
     const double* x = values_.window() + kReach + i;
-    const double distance = off_.window()[kReach + i] - mean;
     e += kDifference[i] * *x;
-    r += kDifference[i] * rateBy(1, x) * distance;
-    instrument += kDifference[i] * rateBy(2, x) * distance;
+    r += kDifference[i] * 0.5 * (x[1] - x[-1]) * (off_.window()[kReach + i] - mean);
   }
-  products_.add({instrument * r, instrument * e, instrument * instrument, e * e});
-  const double moment = products_.mean(0), beyond = products_.mean(1) - 0.5 * moment;  // (b - 1/2) times the moment
-  const double independent = products_.weight() / kDifference.size();  // neighbouring differences share readings
-  const double variance = products_.mean(2) * products_.mean(3) / independent;
-  const bool is_certain = products_.weight() >= kFewest && square(beyond) > square(kProven) * variance;
-  less_than_half_ = !is_certain ? 0 : (beyond < 0.0) == (moment > 0.0) ? 1 : -1;
+  products_.add({r * r, r * e});
 }
 
 void StreamClock::interrupt() {

@@ -58,6 +58,7 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
   Mapping mapping{Eigen::MatrixXd::Zero(n_, 2 * n_), Eigen::MatrixXd::Zero(n_, 2 * n_), Eigen::VectorXd::Zero(2 * n_)};
   mapping.wheels.leftCols(n_).setIdentity();
   mapping.tops.rightCols(n_).setIdentity();
+  mapping.delays.tail(n_).fill(late_tops_);
   return mapping;
 }
 
@@ -102,7 +103,7 @@ VehicleClaims::Rows VehicleClaims::fit(const Mapping& mapping, const Eigen::Matr
 VehicleClaims::Rows VehicleClaims::fit(const Hypothesis& hypothesis, double size) const {
   Mapping mapping = asFiled();
   hypothesis.apply(size, mapping);
-  return fit(mapping, mapping.delays.isZero() ? in_step_ : moments(mapping.delays));
+  return fit(mapping, mapping.delays == asFiled().delays ? in_step_ : moments(mapping.delays));
 }
 
 // The best size by a parabola through the best of those to begin with and its neighbours, then closer and closer.
@@ -215,17 +216,23 @@ void VehicleClaims::judgeAsFiled() {
 
 void VehicleClaims::judge(const Hypothesis& hypothesis) {
   VehicleMistake other = attempt(hypothesis);
-  const double slack = kVehicleTuning.noise_known_to * noiseShare() * noise_;
-  if (!(other.unexplained < least_) || !(other.unexplained + slack < kMajority * (filed_.unexplained + slack))) return;
-  const Eigen::ArrayXXd change = (fit(hypothesis, other.size).own / filed_.own - 1.0).abs();
-  if (!(change.maxCoeff() > kLeastDifference)) return;
-  if (other.isDelay() && std::abs(other.size) < kBlockTuning.least_delay) {
-    model_errors_ = model_errors_.max(change);
-    return;
+  const double slack = kVehicleTuning.noise_known_to * noiseShare() * noise_, left = other.unexplained;
+  const bool is_by_links = other.isDelay() && std::abs(other.size) < kBlockTuning.least_delay;
+  if (left < least_ && left + slack < kMajority * (filed_.unexplained + slack)) {
+    const Eigen::ArrayXXd change = (fit(hypothesis, other.size).own / filed_.own - 1.0).abs();
+    if (is_by_links) {
+      model_errors_ = model_errors_.max(change);
+    } else if (change.maxCoeff() > kLeastDifference) {
+      least_ = left;
+      other.unexplained = found_.unexplained;
+      found_ = other;
+    }
   }
-  least_ = other.unexplained;
-  other.unexplained = found_.unexplained;
-  found_ = other;
+  // Other mistakes are looked for in what a delay by links, of all tops, leaves: it would hide them.
+  if (hypothesis.kind != allTops() || !is_by_links || found_.kind != Kind::kNone || left > filed_.unexplained) return;
+  late_tops_ = other.size;
+  in_step_ = moments(asFiled().delays);
+  filed_ = fit(asFiled(), in_step_);
 }
 
 }  // namespace suspension_health_monitor

@@ -74,6 +74,7 @@ bool VehicleClaims::hasDeadGyro() const {
 
 std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
   std::vector<Hypothesis> all;
+  addDelays(all);
   const auto struts = static_cast<std::size_t>(n_);
   for (std::size_t i = 0; i < struts; ++i) {
     all.push_back({Kind::kUpsideDown, {i, i}, {1.0}, [i](double, Mapping& m) { m.wheels.row(i) *= -1.0; }});
@@ -82,7 +83,6 @@ std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
           {Kind::kSwapped, {i, j}, {1.0}, [i, j](double, Mapping& m) { m.wheels.row(i).swap(m.wheels.row(j)); }});
   }
   if (isByBody()) addPositions(all);
-  addDelays(all);
   return all;
 }
 
@@ -126,8 +126,7 @@ void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
       all.push_back(
           {Kind::kLateTop, {i, i}, kDelays, [i, n = n_](double size, Mapping& m) { m.delays[n + i] = size; }});
   }
-  const Kind all_tops = isByBody() ? Kind::kLateBody : Kind::kLateTops;
-  all.push_back({all_tops, {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
+  all.push_back({allTops(), {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
 }
 
 }  // namespace suspension_health_monitor

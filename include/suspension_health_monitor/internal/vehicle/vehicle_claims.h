@@ -113,10 +113,13 @@ class VehicleClaims {
   Rows fit(const Mapping& mapping, const Eigen::MatrixXd& moments) const;
   Rows fit(const Hypothesis& hypothesis, double size) const;
   VehicleMistake attempt(const Hypothesis& hypothesis) const;
-  std::vector<Hypothesis> hypotheses() const;
+  std::vector<Hypothesis> hypotheses() const;  // delays first
   void addPositions(std::vector<Hypothesis>& all) const;
   void addDelays(std::vector<Hypothesis>& all) const;
   VehicleMistake sameOrAlike() const;
+  VehicleMistake::Kind allTops() const {  // are late
+    return isByBody() ? VehicleMistake::Kind::kLateBody : VehicleMistake::Kind::kLateTops;
+  }
 
   Eigen::Index n_, forces_;
   Eigen::ArrayXcd s_;
@@ -132,7 +135,8 @@ class VehicleClaims {
   Rows filed_{1.0, {}, {}};  // of what goes with the wheels, by the file
   double noise_ = 0.0;       // share of the tops' motion that does not go with the wheels
   Eigen::ArrayXXd model_errors_;
-  double least_ = 0.0;  // that a hypothesis leaves
+  double late_tops_ = 0.0;  // [s], by links, taken out of in_step_
+  double least_ = 0.0;      // that a hypothesis leaves
   int blocks_ = 0;
   bool gyro_died_;
   VehicleMistake found_;
