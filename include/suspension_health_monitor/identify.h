@@ -36,9 +36,9 @@ struct IdentifyResult {
   std::map<std::string, std::uint64_t> rejected;  ///< readings that were kept out, by reason; only those that occurred
   std::vector<std::string> warnings;              ///< of sensors, stamps and a strut that changes, in words
 
-  /// @return false if the strut at the end is another one than over the whole drive, beyond doubt: it has changed, or
-  /// no strut without effects moves like that.
-  bool isSteady() const;
+  /// @return false if the strut of a part of the drive is another one than that of the rest, beyond doubt: it has
+  /// changed, or no strut without effects moves like that.
+  bool isSteady() const { return !estimate.valid() || !estimate.change; }
 };
 
 /// Identifies a strut from recorded drives, through the same code as the live monitor.

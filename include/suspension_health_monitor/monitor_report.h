@@ -59,6 +59,14 @@ struct DryFriction {
   double stiffnessLawStddev() const { return 0.5 * kLawUnknown * std::abs(force) * stiffness_gain; }
 };
 
+/// A stretch of a drive whose strut is another one than that of the rest, beyond chance and by more than another road
+/// makes it.
+struct ChangedStretch {
+  double from = 0.0, to = 0.0;  ///< [s] that the blocks cover, since the first
+  double damping = 0.0;         ///< b1 of the stretch less that of the rest, over the latter [-]
+  double stiffness = 0.0;       ///< b0 likewise [-]
+};
+
 /// What one estimator knows of the strut. NaN: nothing yet; an infinite standard deviation: nobody knows.
 struct StrutEstimate {
   double damping_to_mass = std::nan("");           ///< b1 = beta/M [1/s]
@@ -83,10 +91,11 @@ struct StrutEstimate {
   double effective_rows = 0.0;          ///< rows in the memory of LS, LA; blocks of the window
   double explained = 0.0;               ///< LS, LA: 1 - mean |epsilon| / mean |psi|; blocks: share of the body's power
   double tails = 0.0;  ///< mean square of the residuals of LS, LA over their squared mean size [-]: 1.57 if normal
-  double age = std::nan("");          ///< of what the block estimate rests on [s], on average
-  double window = std::nan("");       ///< span of its blocks [s]
-  double roughest = 1.0;              ///< information of the best quarter of that span over the mean of four [-]
-  std::optional<double> temperature;  ///< of the damper [deg C]; empty: it has no thermometer
+  double age = std::nan("");             ///< of what the block estimate rests on [s], on average
+  double window = std::nan("");          ///< span of its blocks [s]
+  double roughest = 1.0;                 ///< information of the best quarter of that span over the mean of four [-]
+  std::optional<double> temperature;     ///< of the damper [deg C]; empty: it has no thermometer
+  std::optional<ChangedStretch> change;  ///< of the blocks over a whole drive; empty: it is one strut
   EstimateDoubt doubt = EstimateDoubt::kNoRows;  ///< why it is not valid (validity_gate.h)
 
   bool valid() const { return doubt == EstimateDoubt::kNone; }

@@ -83,17 +83,8 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
   const SensorReport& sensor = monitor.report().health.sensor;
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated)
     result.warnings.push_back(describe(sensor));
-  if (!result.isSteady()) result.warnings.push_back(describeUnsteady(result.estimate, result.now));
+  if (!result.isSteady()) result.warnings.push_back(describe(*result.estimate.change));
   return result;
-}
-
-bool IdentifyResult::isSteady() const {
-  const auto agree = [this](double StrutEstimate::*value, double StrutEstimate::*stddev) {
-    return std::abs(estimate.*value - now.*value) <= kCertain * std::hypot(estimate.*stddev, now.*stddev);
-  };
-  return !estimate.valid() || !now.valid() ||
-         (agree(&StrutEstimate::damping_to_mass, &StrutEstimate::damping_to_mass_stddev) &&
-          agree(&StrutEstimate::stiffness_to_mass, &StrutEstimate::stiffness_to_mass_stddev));
 }
 
 VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std::string>& names,

@@ -149,9 +149,7 @@ struct Nominal {
 
   Nominal(const RecordedMonitor& recorded, const std::vector<IdentifyResult>& found, const VehicleOptions& settings) {
     for (const std::size_t i : recorded.vehicle().asked) {
-      const std::vector<std::string> faults = recorded.mountFaults(i);
-      std::string lack = whyNotNominal(found[i], settings.struts[i].monitor);
-      if (lack.empty() && !faults.empty()) lack = "mend a sensor first: " + faults.front();
+      const std::string lack = whyNotNominal(found[i], settings.struts[i].monitor);
       if (lack.empty())
         struts.emplace(recorded.vehicle().names[i], *strutOf(found[i]));
       else

@@ -116,7 +116,7 @@ KnownModels readModels(const boost::program_options::variables_map& values, cons
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options) {
   const std::optional<StrutOfDrive> strut = strutOf(found);
   if (!strut) return "no estimate is valid";
-  if (!found.isSteady()) return "the strut is not the same over the drive";
+  if (!found.warnings.empty()) return found.warnings.front();
   std::vector<std::string> lacks;
   const auto ask = [&](const char* name, double value, double stddev, double warn) {
     if (kProven * stddev <= warn * value) return;

@@ -3,9 +3,11 @@ import json
 import re
 
 import pytest
+import rosbag
 import yaml
 
 import browser
+import imu_bag
 
 ROAD = ["--scenario", "iso_road", "--vehicle", "ugv"]
 DRIVE = [*ROAD, "--rate", "100"]
@@ -86,7 +88,7 @@ def test_payload_is_told_as_payload(program, bag):
 
 # One that wears has no healthy values; of one that the model explains by half nobody knows them.
 @pytest.mark.parametrize("rate, hidden, words", [
-    (100, ["--set", "damping_end_fraction=0.5"], "the strut is not the same over the drive"),
+    (100, ["--set", "damping_end_fraction=0.5"], r"no settings are written: the strut changes over the drive.*identify a drive"),
     (200, ["--effect", "coulomb_friction=1.5,vs=0.01"], r"damping/mass is known to \S+ % only, and 5 % are needed"),
     (100, ["--effect", "coulomb_friction=1.5,vs=0.01"], r"damping/mass is known to \S+ % only, and 5 % are needed"),
     (100, ["--set", "noise=3"], "no estimate is valid|there is no estimate"),
@@ -98,6 +100,30 @@ def test_what_is_no_healthy_strut_is_not_written(program, rate, hidden, words, t
     assert not (tmp_path / "my_strut.yaml").exists() and "wrote" not in result.stdout
     changes = "the strut changes over the drive" in result.stdout
     assert changes == ("damping_end_fraction=0.5" in hidden)
+
+
+def test_strut_that_changes_early_is_not_written(program, worn, tmp_path):
+    bags = [tmp_path / "healthy.bag", worn]
+    program.succeed("simulate", *DRIVE, "--duration", "20", "--seed", "2", "-o", bags[0])
+    result = program("identify", *bags, "-o", tmp_path / "my_strut.yaml")
+    assert result.returncode == 4 and not (tmp_path / "my_strut.yaml").exists()
+    told = re.search(r"changes over the drive.* from about (\d+) to (\d+) s damping/mass is ([+-]\d+) %.*identify a drive", result.stderr)
+    begin, end, change = (int(number) for number in told.groups())
+    assert (begin, change) == (0, pytest.approx(25, abs=3)) and 12 <= end <= 25 or change == pytest.approx(-20, abs=2)
+    program.succeed("identify", worn, "-o", tmp_path / "my_strut.yaml")
+
+
+# Its estimate takes the gain into account, and gravity does not show it.
+def test_strut_whose_sensor_is_doubted_is_not_written(program, bag, tmp_path):
+    with rosbag.Bag(str(bag)) as healthy, rosbag.Bag(str(tmp_path / "gained.bag"), "w") as gained:
+        for topic, message, time in healthy.read_messages():
+            if topic == imu_bag.SPRUNG:
+                message.linear_acceleration.z += 0.15 * (message.linear_acceleration.z - 9.81)
+            gained.write(topic, message, time)
+    result = program("identify", tmp_path / "gained.bag", "-o", tmp_path / "my_strut.yaml")
+    assert "warning: the sprung IMU reads 1.1" in result.stdout
+    assert result.returncode == 4 and "no settings are written: the sprung IMU reads 1.1" in result.stderr
+    assert not (tmp_path / "my_strut.yaml").exists()
 
 
 def test_baseline_takes_the_nominal_values_of_settings(program, worn, settings, tmp_path):

@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "paper_drive.h"
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 #include "suspension_health_monitor/vehicle.h"
@@ -69,6 +71,44 @@ TEST(WholeDrive, IsThatOfReadingsThatBelongTogether) {
     expectTruth(found.estimate);
     EXPECT_TRUE(found.isSteady());
   }
+}
+
+/// @return of a drive of two minutes, after as many seconds of which the strut becomes another one.
+IdentifyResult identifiedWithChange(double seconds, double damping_left, double stiffness_left, int seed) {
+  SimulationOptions options;
+  options.scenario = "iso_road";
+  options.damping_to_mass = kB1;
+  options.stiffness_to_mass = kB0;
+  options.rate = 100.0;
+  options.seed = 2 * seed;
+  options.duration = seconds;
+  const std::vector<CornerSample> before = simulate(options);
+  options.seed += 1;
+  options.duration = 120.0 - seconds;
+  *options.damping_to_mass *= damping_left;
+  *options.stiffness_to_mass *= stiffness_left;
+  return identify({Drive{before}, Drive{simulate(options)}});
+}
+
+TEST(WholeDrive, IsNotSteadyWhereverTheStrutChanges) {
+  for (const double seconds : {12.0, 20.0, 108.0})
+    for (const auto& [damping, stiffness] : {std::pair(0.81, 1.0), std::pair(1.0, 0.85), std::pair(0.85, 0.85)}) {
+      SCOPED_TRACE(seconds);
+      const IdentifyResult found = identifiedWithChange(seconds, damping, stiffness, 1);
+      ASSERT_TRUE(found.estimate.change);
+      EXPECT_FALSE(found.isSteady());
+      ASSERT_EQ(found.warnings.size(), 1u);
+      const auto& [from, to, of_damping, of_stiffness] = *found.estimate.change;
+      EXPECT_TRUE(std::abs((from > 1.0 ? from : to) - seconds) < 10.0) << from << " to " << to;
+      const bool is_first = from <= 1.0;
+      EXPECT_NEAR(is_first ? 1.0 / (1.0 + of_damping) : 1.0 + of_damping, damping, 0.04);
+      EXPECT_NEAR(is_first ? 1.0 / (1.0 + of_stiffness) : 1.0 + of_stiffness, stiffness, 0.04);
+    }
+}
+
+TEST(WholeDrive, OfOneStrutIsSteady) {
+  for (int seed = 1; seed <= 4; ++seed)
+    EXPECT_TRUE(identifiedWithChange(60.0, 1.0, 1.0, seed).isSteady()) << "seed " << seed;
 }
 
 TEST(WholeDrive, DoesNotFeelAnOffsetThatDrifts) { expectTruth(CarDrive().identified(0, 0.3).estimate); }

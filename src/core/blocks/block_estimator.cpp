@@ -187,11 +187,12 @@ void BlockEstimator::restart() {
 std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
   constexpr int kMostSteps = 30;
   constexpr double kStill = 1e-12;  // relative
-  if (drive_.blocks() > 0) {
+  const auto ofDriveFit = [this] {
     BlockEstimator copy = *this;
     copy.retireAll();
     return copy.drive_.estimate(first_);
-  }
+  };
+  if (drive_.blocks() > 0) return ofDriveFit();
   if (!hasBlocks() || !(has_theta_ || start())) return std::nullopt;
   WindowEstimate result;
   for (int i = 0; i < kMostSteps; ++i) {
@@ -201,6 +202,7 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
     theta_ = result.theta;
     if (((theta_ - before).array().abs() <= kStill * theta_.array().abs()).head<2>().all()) break;
   }
+  if (const auto of_drive = ofDriveFit()) result.change = of_drive->change;
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -65,62 +66,114 @@ BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix&
   return inverse * middle * inverse.transpose();
 }
 
+DriveFit::Sums DriveFit::Sums::operator-(const Sums& other) const {
+  return {blocks - other.blocks,
+          information - other.information,
+          spread - other.spread,
+          scatter - other.scatter,
+          right - other.right,
+          body - other.body,
+          unexplained - other.unexplained,
+          rate - other.rate,
+          travel - other.travel,
+          weight - other.weight};
+}
+
 DriveFit::DriveFit(const BlockBand& band, const BlockColumns& columns)
     : length_(band.length), bands_(band), columns_(columns) {
   const Eigen::Index p = columns.numParameters();
-  information_.setZero(p, p);
-  scatter_ = spread_ = information_;
-  right_.setZero(p);
-  previous_.assign(bands_.count(), right_);
+  all_.information.setZero(p, p);
+  all_.scatter = all_.spread = all_.information;
+  all_.right.setZero(p);
+  before_.assign(kMostInstants, all_);
+  previous_.assign(bands_.count(), all_.right);
 }
 
 void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const BlockVector& theta) {
-  ++blocks_;
   const double weight = weights.of(residualPowers(block, bands_, theta).array());
-  weight_ += weight;
+  all_.weight += weight;
   for (int i = 0; i < bands_.count(); ++i) {
     const StrutBlock::Band& band = block.bands[i];
     const double scale = weights.share_scale[i], of_band = weight / weights.noise[i];
     const BlockMatrix information = of_band * withShare(band.information, scale);
     const BlockVector score = of_band * scoreOf(band, theta, scale);
-    information_ += information;
-    spread_ += of_band * withShare(band.instruments, scale);
-    right_.noalias() += information * theta;
-    right_ += score;
+    all_.information += information;
+    all_.spread += of_band * withShare(band.instruments, scale);
+    all_.right.noalias() += information * theta;
+    all_.right += score;
     BlockVector& previous = previous_[i];
     const BlockMatrix with_previous = 0.5 * score * previous.transpose();
-    scatter_ += score * score.transpose() + with_previous + with_previous.transpose();
+    all_.scatter += score * score.transpose() + with_previous + with_previous.transpose();
     previous = score;
-    body_ += weight * band.body_power;
-    unexplained_ += weight * residualPower(band.moments, theta);
-    rate_ += weight * band.rate_power;
-    travel_ += weight * band.travel_power;
+    all_.body += weight * band.body_power;
+    all_.unexplained += weight * residualPower(band.moments, theta);
+    all_.rate += weight * band.rate_power;
+    all_.travel += weight * band.travel_power;
   }
+  if (++all_.blocks % blocks_between_ != 0) return;
+  if (num_instants_ == kMostInstants) {
+    for (std::size_t i = 1; 2 * i < kMostInstants; ++i) std::swap(before_[i], before_[2 * i]);
+    num_instants_ /= 2;
+    blocks_between_ *= 2;
+  }
+  if (all_.blocks % blocks_between_ == 0) before_[num_instants_++] = all_;
 }
 
-std::optional<WindowEstimate> DriveFit::estimate(const BlockPrior& prior) const {
-  if (blocks_ < kBlockWindows.front()) return std::nullopt;
-  BlockMatrix normal = information_;
-  BlockVector right = right_;
+std::optional<WindowEstimate> DriveFit::estimate(const Sums& sums, const BlockPrior& prior) const {
+  if (sums.blocks < kBlockWindows.front()) return std::nullopt;
+  BlockMatrix normal = sums.information;
+  BlockVector right = sums.right;
   const BlockVector known = prior.stddev.cwiseAbs2().cwiseInverse();
   normal.diagonal() += known;
   right += known.cwiseProduct(prior.mean);
   const NormalEquations equations(normal, right);
   if (!equations.is_solvable) return std::nullopt;
   WindowEstimate result;
-  result.blocks = blocks_;
+  result.blocks = sums.blocks;
   result.theta = equations.solution;
-  result.covariance = covarianceByNoise(spread_, equations.inverse, prior, blocks_);
-  BlockMatrix scattered = scatter_;
+  result.covariance = covarianceByNoise(sums.spread, equations.inverse, prior, sums.blocks);
+  BlockMatrix scattered = sums.scatter;
   scattered.diagonal() += known;
   scattered = equations.inverse * scattered * equations.inverse.transpose();
   const Eigen::Matrix2d covariance = result.covariance.topLeftCorner<2, 2>();
   result.inflation = std::max(1.0, 0.5 * (covariance.inverse() * scattered.topLeftCorner<2, 2>()).trace());
   result.covariance *= result.inflation;
-  result.explained = body_ > 0.0 ? 1.0 - unexplained_ / body_ : 0.0;
-  result.setMotion(rate_ / weight_, travel_ / weight_, length_);
+  result.explained = sums.body > 0.0 ? 1.0 - sums.unexplained / sums.body : 0.0;
+  result.setMotion(sums.rate / sums.weight, sums.travel / sums.weight, length_);
   if (!result.isUsable()) return std::nullopt;
   return result;
+}
+
+std::optional<WindowEstimate> DriveFit::estimate(const BlockPrior& prior) const {
+  std::optional<WindowEstimate> whole = estimate(all_, prior);
+  if (whole) findChange(prior, *whole);
+  return whole;
+}
+
+// Of all stretches between two instants the one that differs most from the rest of the drive, if that is more than
+// another road does, beyond chance.
+void DriveFit::findChange(const BlockPrior& prior, WindowEstimate& whole) const {
+  double most = limitFor(static_cast<double>(num_instants_ * (num_instants_ + 1)));  // two numbers of every stretch
+  const auto variance = [this](const WindowEstimate& estimate) -> Eigen::Array2d {
+    const Eigen::Array2d by_noise = estimate.covariance.diagonal().head<2>();
+    if (!columns_.has_friction) return by_noise;
+    const DryFriction friction = estimate.dryFriction();
+    return by_noise + Eigen::Array2d(friction.lawStddev(), friction.stiffnessLawStddev()).square();
+  };
+  for (std::size_t from = 0; from < num_instants_; ++from)
+    for (std::size_t to = from + 1; to <= num_instants_; ++to) {
+      const Sums within = (to < num_instants_ ? before_[to] : all_) - before_[from];
+      const auto one = estimate(within, prior), other = estimate(all_ - within, prior);
+      if (!one || !other) continue;
+      const Eigen::Array2d rest = other->theta.head<2>(), change = one->theta.head<2>().array() - rest;
+      const Eigen::Array2d deviation = (variance(*one) + variance(*other)).sqrt();
+      const double beyond = ((change.abs() - kLeastChange * rest) / deviation).maxCoeff();
+      if (beyond <= most) continue;
+      most = beyond;
+      const auto time = [&](const Sums& sums) { return 0.5 * length_ * sums.blocks; };
+      whole.change = {time(before_[from]), time(before_[from]) + time(within), change[0] / rest[0],
+                      change[1] / rest[1]};
+    }
 }
 
 }  // namespace suspension_health_monitor

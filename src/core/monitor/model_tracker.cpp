@@ -54,10 +54,7 @@ void write(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& es
     estimate.coefficient_stddevs[j] = stddev(i);
   }
   if (num_effects == 0) {
-    const int i = kNumBlockParameters;
-    const double gain = blocks.frictionGain();
-    estimate.friction =
-        DryFriction{blocks.theta[i], stddev(i), gain, blocks.covariance(0, i), gain * blocks.rate / blocks.travel};
+    estimate.friction = blocks.dryFriction();
     estimate.damping_to_mass_stddev = std::hypot(estimate.damping_to_mass_stddev, estimate.friction->lawStddev());
     estimate.stiffness_to_mass_stddev =
         std::hypot(estimate.stiffness_to_mass_stddev, estimate.friction->stiffnessLawStddev());
@@ -66,6 +63,7 @@ void write(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& es
   estimate.explained = blocks.explained;
   estimate.window = (blocks.blocks + 1) * blocks.length / 2.0;
   estimate.roughest = blocks.roughest;
+  estimate.change = blocks.change;
 }
 
 }  // namespace

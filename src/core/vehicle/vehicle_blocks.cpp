@@ -28,7 +28,7 @@ VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions&
       period_(period),
       length_(options.length),
       columns_{static_cast<int>(vehicle.known_forces.size() + std::max<std::size_t>(effects, 1)),
-               2 * (static_cast<int>(size()) - 1)},
+               2 * (static_cast<int>(size()) - 1), effects == 0},
       estimates_(size()),
       has_(size(), false),
       blocks_(size()),

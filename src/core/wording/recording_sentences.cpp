@@ -51,12 +51,11 @@ std::string describeRejected(const RejectCounts& rejected) {
   return text;
 }
 
-std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& end) {
+std::string describe(const ChangedStretch& stretch) {
   return formatted(
-      "the strut changes over the drive, or is no plain spring and damper: damping/mass %.4g +- %.2g 1/s and "
-      "stiffness/mass %.4g +- %.2g 1/s^2 over all of it, %.4g +- %.2g and %.4g +- %.2g at its end",
-      whole.damping_to_mass, whole.damping_to_mass_stddev, whole.stiffness_to_mass, whole.stiffness_to_mass_stddev,
-      end.damping_to_mass, end.damping_to_mass_stddev, end.stiffness_to_mass, end.stiffness_to_mass_stddev);
+      "the strut changes over the drive, or is no plain spring and damper: from about %.0f to %.0f s damping/mass is "
+      "%+.0f %% and stiffness/mass %+.0f %% off the rest; identify a drive, or a part of one, in which nothing changes",
+      stretch.from, stretch.to, 100.0 * stretch.damping, 100.0 * stretch.stiffness);
 }
 
 std::string describeSlowReadings(const StreamGrid& grid) {

@@ -26,7 +26,8 @@ enum BlockParameter : int {
 /// How many columns the equations of one strut top have beside b1, b0, tau, r and gamma.
 struct BlockColumns {
   int forces = 1;  ///< known shapes of a force over the body's mass, on the wheel's stamps: dry friction, or effects
-  int neighbours = 0;  ///< travel rates and travels of the other struts of the body
+  int neighbours = 0;         ///< travel rates and travels of the other struts of the body
+  bool has_friction = false;  ///< the first force is dry friction
 
   int numParameters() const { return kNumBlockParameters + forces + neighbours; }
   int firstForce() const { return kNumBlockParameters; }

@@ -4,10 +4,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
@@ -38,7 +40,8 @@ struct WindowEstimate {
   double travel = 0.0;     ///< rms of the travel [m]
   double roughest = 1.0;   ///< information of the best quarter of the window, of four in turn, over the mean one's
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
-  BandVector noise;        ///< power of e per bin of each band: the unexplained spectrum
+  std::optional<ChangedStretch> change;  ///< of a whole drive
+  BandVector noise;                      ///< power of e per bin of each band: the unexplained spectrum
 
   /// @param i  b1 or b0. A damping below kBlockTuning.least_damping is known as well as that one is: a strut without a
   /// damper is one, too.
@@ -55,6 +58,12 @@ struct WindowEstimate {
   /// @return g: friction f acts as g f of b1 [s/m]. Of a normal distribution of the rate the least squares line through
   /// Coulomb's law has this slope.
   double frictionGain() const { return rate > 0.0 ? std::sqrt(2.0 / M_PI) / rate : 0.0; }
+  /// @return that of the first force.
+  DryFriction dryFriction() const {
+    constexpr int i = kNumBlockParameters;
+    const double gain = frictionGain();
+    return {theta[i], std::sqrt(covariance(i, i)), gain, covariance(0, i), gain * rate / travel};
+  }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };

@@ -108,7 +108,7 @@ class VehicleBlocks {
   std::size_t size() const { return vehicle_.struts.size(); }
   bool isAlone() const { return size() == 1; }
   bool isByBody() const { return vehicle_.numTopsOfBody() == size(); }
-  bool looksForFriction() const { return effects_ == 0; }
+  bool looksForFriction() const { return columns_.has_friction; }
   /// Column of the travel rate of strut j in the row of strut i; that of its travel is the next.
   int columnOf(std::size_t i, std::size_t j) const {
     return j == i ? int{kBlockDamping} : columns_.firstNeighbour() + neighbourColumn(i, j);

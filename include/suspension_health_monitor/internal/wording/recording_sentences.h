@@ -12,8 +12,8 @@ namespace suspension_health_monitor {
 
 /// What came of a recording, in words for people: of bags and of arrays.
 
-/// @return what a drive says whose strut at the end is not that of the whole.
-std::string describeUnsteady(const StrutEstimate& whole, const StrutEstimate& end);
+/// @return what to tell and to do where the strut is not the same over a drive.
+std::string describe(const ChangedStretch& stretch);
 
 /// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
 std::string describeRejected(const RejectCounts& rejected);
