@@ -41,10 +41,10 @@ def launch_and_look(terminal, command, fields=()):
 class Terminal:
     """A folder, and a ROS master of its own."""
 
-    def __init__(self, folder, port):
+    def __init__(self, folder, port, environment=os.environ):
         self.folder = folder
         self.port = port
-        self.environment = dict(os.environ, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost",
+        self.environment = dict(environment, ROS_MASTER_URI=f"http://localhost:{self.port}", ROS_HOSTNAME="localhost",
                                 ROS_HOME=str(folder / "ros_home"), ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
                                 PYTHONUNBUFFERED="1")  # what a process says is there when it says it, as on a terminal
 
