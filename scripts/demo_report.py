@@ -4,6 +4,7 @@
 Needs a built workspace whose setup.bash is sourced; scripts/demo does both. Exit status: 0 done and every claim held,
 1 otherwise.
 """
+import report.sourced  # noqa: F401  (ends the script without a sourced setup file)
 import argparse
 import datetime
 import pathlib

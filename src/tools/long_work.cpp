@@ -28,10 +28,9 @@ constexpr int kWidth = 40;
 }  // namespace
 
 int Interrupted::endProgram() const {
-  constexpr int kShellOffset = 128;
   std::signal(signal, SIG_DFL);
   std::raise(signal);
-  return kShellOffset + signal;
+  return 128 + signal;  // as shells do
 }
 
 Interruption::Interruption() {

@@ -47,6 +47,7 @@ int run(const Command& command, const Arguments& arguments) {
     if (std::fflush(stdout) != 0) throw std::runtime_error("standard output: cannot be written");
     return kDone;
   } catch (const Interrupted& interrupted) {
+    std::fprintf(stderr, "suspension_bag %s: interrupted, files that were not finished are removed\n", command.name);
     return interrupted.endProgram();
   } catch (const TooLittleError& error) {
     return fail(command.name, error, kTooLittle);

@@ -14,7 +14,7 @@ FOLDERS = sorted(path.name for path in REPOSITORY.iterdir() if path.is_dir()
 PATH_IN_FOLDER = re.compile(rf"(?<![\w./$-])(?:{'|'.join(map(re.escape, FOLDERS))})/[\w.*/-]*\w")
 FILE_NAME = re.compile(
     r"(?<![\w/$~-])[\w*][\w*/.-]*\.(?:h|cpp|py|yaml|launch|msg|srv|test|md|rst|txt|xml|csv)\b(?![\w/])")
-MADE_BY_USERS = {"my_strut.yaml", "my_strut_identified.yaml", "models.yaml", "estimates.csv", "drive.csv",
+MADE_BY_USERS = {"my_strut.yaml", "simulated.yaml", "models.yaml", "estimates.csv", "drive.csv",
                  "my_laws.yaml", "model.yaml", "my_vehicle.yaml", "vehicle.yaml", "fleet/vehicle.yaml",
                  "my_tricycle.yaml"}
 NUM_EQUATIONS = 32

@@ -5,6 +5,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -106,6 +107,12 @@ def test_scripts_find_ros_1_of_any_name(tmp_path, installed, found):
     script = f"source {REPOSITORY}/scripts/common.sh; ros_folder={tmp_path}; sourceSystemRos; echo \"${{ROS_DISTRO:-}}\""
     status, told = run(["bash", "-c", script], {"ROS_DISTRO": ""})
     assert (status, told) == (0, found + "\n")
+
+
+@pytest.mark.parametrize("name", ["demo_report.py", "draw_page_picture", "draw_readme_picture", "update_tables"])
+def test_a_script_says_in_one_sentence_what_to_source(name):
+    status, told = run([sys.executable, "-S", REPOSITORY / "scripts" / name], {"PYTHONPATH": ""})  # -S: nor a .deb
+    assert status == 1 and told.count("\n") == 1 and told.endswith("source its devel/setup.bash\n")
 
 
 def test_the_image_runs_the_demo_on_debian():

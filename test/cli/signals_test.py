@@ -1,4 +1,4 @@
-"""A signal that asks a command to end: nothing is left of the files that it was writing."""
+"""A signal that asks a command to end: it says so, and nothing is left of the files that it was writing."""
 import os
 import signal
 import subprocess
@@ -29,6 +29,10 @@ def start(program, folder, arguments, **handling):
                             preexec_fn=set_up)
 
 
+def told(command):
+    return f"suspension_bag {command}: interrupted, files that were not finished are removed\n".encode()
+
+
 def wait_for_growth(folder, size=100_000):
     """Until the unfinished bag has that many bytes."""
     conftest.wait_until(lambda: any(path.stat().st_size > size for path in folder.iterdir() if ".part" in path.name),
@@ -41,7 +45,7 @@ def test_a_signal_leaves_no_part_of_the_bag(program, tmp_path, number):
     process = start(program, tmp_path, LONG)
     wait_for_growth(tmp_path)
     process.send_signal(number)
-    assert process.communicate(timeout=conftest.HANGS) == (b"", b"")
+    assert process.communicate(timeout=conftest.HANGS) == (b"", told("simulate"))
     assert process.returncode == -number, "whoever waits for it sees what ended it"
     assert [path.name for path in tmp_path.iterdir()] == ["out.bag"]
     assert (tmp_path / "out.bag").read_bytes() == b"here first"
@@ -79,6 +83,6 @@ def test_a_signal_leaves_no_part_of_the_results(program, long_bag, tmp_path, com
     begun = conftest.processor_time(process.pid)
     conftest.wait_until(lambda: conftest.processor_time(process.pid) >= begun + after, every=OFTEN)
     process.terminate()
-    assert process.communicate(timeout=conftest.HANGS) == (b"", b"")
+    assert process.communicate(timeout=conftest.HANGS) == (b"", told(command))
     assert process.returncode == -signal.SIGTERM
     assert os.listdir(tmp_path) == []
