@@ -168,14 +168,12 @@ bool VehicleClaims::work() {
   else
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
-  if (found_.isContradiction() || hypotheses_.empty()) return true;
-  // What goes with the wheels and no row explains may lie along any of the 2 n columns, against what the strut's own
-  // column moves. Struts on links leave 0.1 %.
-  const double unexplained = std::max(0.0, found_.isDelay() ? least_ : filed_.unexplained);
-  const double error = std::sqrt(unexplained / (2.0 * static_cast<double>(n_)));
-  if (found_.kind == Kind::kNone && error > kWorthHaving && unexplained > noiseShare() * noise_)
-    found_.kind = Kind::kOthers;
-  model_errors_ = (model_errors_.square() + square(error) / filed_.moved.max(kRounding)).sqrt();
+  // What goes with the wheels and no row explains may lie along any of the 2 n columns. Struts on links leave 0.1 %.
+  const double each = filed_.unexplained / (2.0 * static_cast<double>(n_));
+  if (found_.kind != Kind::kNone || each < square(kWorthHaving) || filed_.unexplained < noiseShare() * noise_)
+    return true;
+  found_.kind = Kind::kOthers;
+  model_errors_ = (model_errors_.square() + each / filed_.moved.max(kRounding)).sqrt();
   return true;
 }
 

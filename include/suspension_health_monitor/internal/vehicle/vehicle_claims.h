@@ -71,8 +71,8 @@ class VehicleClaims {
   const VehicleMistake& found() const { return found_; }
 
   /// @return by strut the relative standard deviation of b1 and b0 by what the rows lack: the change by a delay that
-  /// explains more of the motion, but is too small to be a clock's (links and rubber turn phases by as much), and what
-  /// goes with the wheels unexplained.
+  /// explains more of the motion, but is too small to be a clock's (links and rubber turn phases by as much), and, of
+  /// kOthers, what goes with the wheels unexplained.
   const Eigen::ArrayXXd& modelErrors() const { return model_errors_; }
 
   /// Does all portions.
