@@ -82,5 +82,23 @@ TEST(SensorCheck, SuspectsNothingWithAShortWindowOrALongHorizon) {
   EXPECT_EQ(faultOf(scenario("paper_clean"), 0.0, none, settings), SensorFault::kNone);
 }
 
+// Of a dead gyro, or a position that is wrong: what is given as a top's motion is not what moved there.
+TEST(SensorCheck, AccusesNoSensorOfAStrutWhereTheVehicleFileIsContradicted) {
+  SimulationOptions options = road("ugv");
+  options.duration = 60.0;
+  options.rate = 100.0;
+  for (const EstimateDoubt doubt : {EstimateDoubt::kVehicleFile, EstimateDoubt::kUncertain}) {
+    StrutEstimate estimate, la;
+    estimate.doubt = doubt;
+    SensorCheck check(500.0, 40);
+    for (const DriveSample& sample : drive(options)) {
+      check.add({sample.stamp, sample.sprung->acceleration, sample.unsprung->acceleration});
+      check.judge(estimate, la, true);
+    }
+    const bool is_known = doubt == EstimateDoubt::kVehicleFile;
+    EXPECT_EQ(check.report().fault, is_known ? SensorFault::kNone : SensorFault::kUnrelated);
+  }
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor
