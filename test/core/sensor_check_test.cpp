@@ -87,7 +87,7 @@ TEST(SensorCheck, AccusesNoSensorOfAStrutWhereTheVehicleFileIsContradicted) {
   SimulationOptions options = road("ugv");
   options.duration = 60.0;
   options.rate = 100.0;
-  for (const EstimateDoubt doubt : {EstimateDoubt::kVehicleFile, EstimateDoubt::kUncertain}) {
+  for (const EstimateDoubt doubt : {EstimateDoubt::kVehicleFile, EstimateDoubt::kNotExplained}) {
     StrutEstimate estimate, la;
     estimate.doubt = doubt;
     SensorCheck check(500.0, 40);
