@@ -13,7 +13,7 @@ namespace suspension_health_monitor {
 struct Told {
   std::vector<std::vector<TopEstimate>> estimates;  // by strut
   VehicleMistake mistake;
-  Eigen::ArrayXXd by_links;  // VehicleClaims::byLinks()
+  Eigen::ArrayXXd model_errors;  // VehicleClaims::modelErrors()
   std::optional<BodyFitResult> body;
   std::vector<std::optional<WindowEstimate>> over_the_drive;
   std::optional<double> gyro_died;  // [s] of the drive, when the blocks first said so
@@ -65,7 +65,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
   for (std::size_t i = 0; i < n; ++i) told.over_the_drive.push_back(blocks.overTheDrive(i));
   VehicleClaims claims = blocks.claims();
   told.mistake = claims.find();
-  told.by_links = claims.byLinks();
+  told.model_errors = claims.modelErrors();
   if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit::of(n, channels.places()).fit(rows, blocks.rowsOfHalves());
   return told;
 }
