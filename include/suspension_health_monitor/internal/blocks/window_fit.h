@@ -58,7 +58,7 @@ struct WindowEstimate {
   /// @return g: friction f acts as g f of b1 [s/m]. Of a normal distribution of the rate the least squares line through
   /// Coulomb's law has this slope.
   double frictionGain() const { return rate > 0.0 ? std::sqrt(2.0 / M_PI) / rate : 0.0; }
-  /// @return that of the first force.
+  /// @pre the first force is dry friction.
   DryFriction dryFriction() const {
     constexpr int i = kNumBlockParameters;
     const double gain = frictionGain();
