@@ -67,16 +67,9 @@ BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix&
 }
 
 DriveFit::Sums DriveFit::Sums::operator-(const Sums& other) const {
-  return {blocks - other.blocks,
-          information - other.information,
-          spread - other.spread,
-          scatter - other.scatter,
-          right - other.right,
-          body - other.body,
-          unexplained - other.unexplained,
-          rate - other.rate,
-          travel - other.travel,
-          weight - other.weight};
+  return {
+      blocks - other.blocks, information - other.information, spread - other.spread,           scatter - other.scatter,
+      right - other.right,   powers - other.powers,           unexplained - other.unexplained, weight - other.weight};
 }
 
 DriveFit::DriveFit(const BlockBand& band, const BlockColumns& columns)
@@ -105,10 +98,8 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     const BlockMatrix with_previous = 0.5 * score * previous.transpose();
     all_.scatter += score * score.transpose() + with_previous + with_previous.transpose();
     previous = score;
-    all_.body += weight * band.body_power;
+    all_.powers += weight * band.powers;
     all_.unexplained += weight * residualPower(band.moments, theta);
-    all_.rate += weight * band.rate_power;
-    all_.travel += weight * band.travel_power;
   }
   if (++all_.blocks % blocks_between_ != 0) return;
   if (num_instants_ == kMostInstants) {
@@ -138,8 +129,9 @@ std::optional<WindowEstimate> DriveFit::estimate(const Sums& sums, const BlockPr
   const Eigen::Matrix2d covariance = result.covariance.topLeftCorner<2, 2>();
   result.inflation = std::max(1.0, 0.5 * (covariance.inverse() * scattered.topLeftCorner<2, 2>()).trace());
   result.covariance *= result.inflation;
-  result.explained = sums.body > 0.0 ? 1.0 - sums.unexplained / sums.body : 0.0;
-  result.setMotion(sums.rate / sums.weight, sums.travel / sums.weight, length_);
+  const double body = sums.powers[StrutBlock::Band::kBody];
+  result.explained = body > 0.0 ? 1.0 - sums.unexplained / body : 0.0;
+  result.setMotion(sums.powers / sums.weight, length_);
   if (!result.isUsable()) return std::nullopt;
   return result;
 }

@@ -38,7 +38,8 @@ class DriveFit {
     int blocks = 0;
     Eigen::MatrixXd information, spread, scatter;  // of Z'R / s2, Z'Z / s2, and of the scores' products
     Eigen::VectorXd right;
-    double body = 0.0, unexplained = 0.0, rate = 0.0, travel = 0.0, weight = 0.0;
+    StrutBlock::Band::Powers powers = StrutBlock::Band::Powers::Zero();
+    double unexplained = 0.0, weight = 0.0;
 
     Sums operator-(const Sums& other) const;
   };
