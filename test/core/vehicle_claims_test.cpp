@@ -120,8 +120,9 @@ TEST(VehicleClaims, TellWhatADelayThatMayBeOfLinksChanges) {
       for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
         const WindowEstimate& estimate = *told.over_the_drive[i];
         const Eigen::Array2d truth(vehicle.b1(i), vehicle.b0(i)), own = estimate.theta.head<2>();
-        const Eigen::Array2d variance = estimate.covariance.diagonal().head<2>().array() +
-                                        (own * told.model_errors.row(static_cast<Eigen::Index>(i)).transpose()).square();
+        const Eigen::Array2d variance =
+            estimate.covariance.diagonal().head<2>().array() +
+            (own * told.model_errors.row(static_cast<Eigen::Index>(i)).transpose()).square();
         EXPECT_TRUE(((own - truth).abs() < 3.0 * variance.sqrt()).all())
             << made << ' ' << late << ' ' << i << ": " << (own / truth).transpose() << " +- "
             << (variance.sqrt() / truth).transpose();
