@@ -36,8 +36,8 @@ struct IdentifyResult {
   std::map<std::string, std::uint64_t> rejected;  ///< readings that were kept out, by reason; only those that occurred
   std::vector<std::string> warnings;              ///< of sensors, stamps and a strut that changes, in words
 
-  /// @return false if the strut of a part of the drive is another one than that of the rest, beyond doubt: it has
-  /// changed, or no strut without effects moves like that.
+  /// @return false if the strut differs between a stretch of the drive and the rest, beyond doubt: it has changed, or
+  /// its forces are not those of a plain spring and damper.
   bool isSteady() const { return !estimate.valid() || !estimate.change; }
 };
 

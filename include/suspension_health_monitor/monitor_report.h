@@ -59,11 +59,11 @@ struct DryFriction {
   double stiffnessLawStddev() const { return 0.5 * kLawUnknown * std::abs(force) * stiffness_gain; }
 };
 
-/// A stretch of a drive whose strut is another one than that of the rest, beyond chance and by more than another road
-/// makes it.
+/// A stretch of a drive in which the strut differs from that of the rest, beyond chance and by more than another road
+/// makes it differ.
 struct ChangedStretch {
-  double from = 0.0, to = 0.0;  ///< [s] that the blocks cover, since the first
-  double damping = 0.0;         ///< b1 of the stretch less that of the rest, over the latter [-]
+  double from = 0.0, to = 0.0;  ///< since the start of the first block, gaps left out [s]
+  double damping = 0.0;         ///< b1 of the stretch over that of the rest, less 1 [-]
   double stiffness = 0.0;       ///< b0 likewise [-]
 };
 

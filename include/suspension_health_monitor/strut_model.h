@@ -99,4 +99,7 @@ std::vector<ModelNumber> numbersOf(const StrutModel& model);
 /// @return the same numbers, to be changed in place; valid as long as no effect is added or taken out.
 std::vector<double*> valuesOf(StrutModel& model);
 
+/// @return the names of its effects, then of its reading's faults.
+std::vector<std::string> effectNames(const StrutModel& model);
+
 }  // namespace suspension_health_monitor

@@ -90,8 +90,9 @@ class Separator {
     const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
     const StrutPlaces& places = drives_.front().places;
     TopsOfBody of_body(names.size());
-    if (static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise)) == names.size())
-      of_body.assign(places.begin(), places.end());
+    if (places.size() == names.size() &&
+        static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise)) == names.size())
+      std::copy(places.begin(), places.end(), of_body.begin());
     const VehicleMistake mistake = blocks.claims(of_body).find();
     const bool are_known = rows && rows->areKnown() && !mistake.isContradiction();
     std::optional<BodyFitResult> body;

@@ -17,8 +17,7 @@ namespace po = boost::program_options;
 
 /// @param arguments  as on the command line, of any of the commands.
 po::variables_map parsed(const Arguments& arguments) {
-  po::options_description description("options");
-  addBagOptions(description);
+  po::options_description description = bagOptions();
   addModelOptions(description);
   description.add_options()(kBaseline, po::value<std::string>());
   return *parse(arguments, "", description, "bag");

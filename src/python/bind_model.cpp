@@ -41,13 +41,7 @@ void bindModel(py::module& module) {
   ResultClass<ModelNumber>(module, "ModelNumber", "One number of a model, in SI.");
   ResultClass<StrutModel>(module, "StrutModel", "The strut as it is modelled: z'' = b1 v + b0 d + sum_j c_j f_j.")
       .add("numbers", &numbersOf)
-      .add("effects",
-           [](const StrutModel& model) {
-             std::vector<std::string> names;
-             for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
-             for (const ActiveMeasurementEffect& active : model.reading) names.push_back(active.effect.name);
-             return names;
-           })
+      .add("effects", &effectNames)
       .add("settings", &settingsOf)
       .def("yaml", py::overload_cast<const StrutModel&>(&toYaml),
            "The text of a model file: for model_file, `--model` and model=.");

@@ -1,17 +1,13 @@
 #include "options.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <map>
 #include <stdexcept>
 #include <string_view>
 
 namespace suspension_health_monitor {
 namespace {
-
-std::string asPythonName(std::string name) {
-  std::replace(name.begin(), name.end(), '/', '_');
-  return name;
-}
 
 /// What arrays get by an argument of the call.
 const std::map<std::string_view, std::string> kArguments{
@@ -32,7 +28,7 @@ OptionMap takeKeywords(const OptionMap& keywords, const std::vector<OptionDescri
   OptionMap taken, unknown;
   for (const auto& [name, value] : keywords) {
     const auto option = std::find_if(known.begin(), known.end(), [&, &its = name](const OptionDescription& one) {
-      return one.name == its || asPythonName(one.name) == its;
+      return one.name == its || boost::replace_all_copy(one.name, "/", "_") == its;
     });
     if (option == known.end())
       unknown.emplace(name, value);

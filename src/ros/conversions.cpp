@@ -6,11 +6,7 @@ namespace suspension_health_monitor {
 
 Stamp toStamp(const ros::Time& time) { return std::chrono::seconds(time.sec) + Stamp(time.nsec); }
 
-ros::Time toRosTime(Stamp stamp) {
-  ros::Time time;
-  time.fromNSec(static_cast<std::uint64_t>(stamp.count()));
-  return time;
-}
+ros::Time toRosTime(Stamp stamp) { return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.count())); }
 
 ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, const std_msgs::Header& header,
                         const std::vector<ActiveEffect>& effects, const std::optional<double>& sprung_mass) {

@@ -15,22 +15,16 @@
 namespace suspension_health_monitor {
 namespace {
 
-struct FileSettings {
-  std::string vehicle;
-};
-constexpr OptionField<FileSettings> kFileFields[] = {
-    {"vehicle", "-", "YAML file that says which sensors the vehicle has", &FileSettings::vehicle},
-};
-
 VehicleLayout takeLayout(OptionMap& values) {
   if (OptionMap sensors = takePrefixed(values, "vehicle"); !sensors.empty())
     return prefixed("vehicle: ", [&] { return takeVehicle(sensors); });
-  FileSettings file;
-  takeOptions(values, kFileFields, file);
-  if (file.vehicle.empty())
+  std::string file;
+  constexpr OptionTraits kFile{{}, "vehicle", "-", "YAML file that says which sensors the vehicle has", 0.0, 0.0, {}};
+  if (const auto given = values.extract("vehicle")) option_table::assign({kFile, &file}, given.mapped());
+  if (file.empty())
     throw std::invalid_argument(
         "vehicle is missing, must be the YAML file that says which sensors the vehicle has, or what it says");
-  return prefixed("vehicle = ", [&] { return readVehicleFile(file.vehicle); });
+  return prefixed("vehicle = ", [&] { return readVehicleFile(file); });
 }
 
 /// Sensors are read, aligned and kept for all struts together.

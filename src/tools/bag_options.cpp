@@ -116,7 +116,8 @@ ImuBags bagsOf(const po::variables_map& values) {
   return bags;
 }
 
-void addBagOptions(po::options_description& description) {
+po::options_description bagOptions() {
+  po::options_description description("options");
   addBags(description);
   auto add = description.add_options();
   add("config", po::value<std::string>()->default_value(""),
@@ -131,6 +132,7 @@ void addBagOptions(po::options_description& description) {
   add(kVehicle, po::value<std::string>(),
       "YAML file with the IMUs of a whole vehicle, instead of the topics of a strut");
   add(kStrut, po::value<std::string>(), "of the vehicle: results, and files, of this one only");
+  return description;
 }
 
 AskedVehicle readVehicle(const po::variables_map& values) {

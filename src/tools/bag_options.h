@@ -67,8 +67,8 @@ void addBags(boost::program_options::options_description& description);
 /// @throws std::invalid_argument  for a part that ends before it begins.
 ImuBags bagsOf(const boost::program_options::variables_map& values);
 
-/// Adds these and the other common options to a subcommand's own.
-void addBagOptions(boost::program_options::options_description& description);
+/// @return these and the other common options, for a subcommand to add its own to.
+boost::program_options::options_description bagOptions();
 
 /// @return how many processor cores may be used.
 /// @throws std::invalid_argument  as command.h.

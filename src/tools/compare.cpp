@@ -116,8 +116,7 @@ nlohmann::json toJson(const Comparison& comparison) {
 
 void compare(const Arguments& arguments) {
   namespace po = boost::program_options;
-  po::options_description description("options");
-  addBagOptions(description);
+  po::options_description description = bagOptions();
   addModelOptions(description);
   const auto values = parse(arguments, "compare BAG... [--model MODEL.yaml] [OPTION]...", description, "bag");
   if (!values) return;

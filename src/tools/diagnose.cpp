@@ -183,7 +183,7 @@ std::string modelText(const VehicleDiagnosis& found, const AskedVehicle& vehicle
 
 void search(const po::variables_map& values) {
   DiagnoseOptions searching;
-  searching.threads = threadsOf(values);
+  searching.threads = threadsOf(values);  // refuses a wrong number before any file is read
   AskedDrives asked(values);
   const AskedVehicle& vehicle = asked.options.vehicle;
   std::optional<TextFile> file = outputFile(values, "json"), model = outputFile(values, "output");
@@ -208,8 +208,7 @@ void search(const po::variables_map& values) {
 }  // namespace
 
 void diagnose(const Arguments& arguments) {
-  po::options_description description("options");
-  addBagOptions(description);
+  po::options_description description = bagOptions();
   addModelOptions(description);
   auto add = description.add_options();
   add("output,o", po::value<std::string>(), "write the model that was found as YAML; of a vehicle those of its struts");
@@ -220,7 +219,6 @@ void diagnose(const Arguments& arguments) {
   if (!values) return;
   const std::vector<std::string> outputs{"json", "output", kReport};
   requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, outputs);
-  threadsOf(*values);  // refuses a wrong number before any file is read
   const Interruption interruption;
   search(*values);
   printWritten(*values, outputs);

@@ -77,17 +77,11 @@ json toJson(const HealthCourse& course) {
   return {{"time", time}, {"damping", shortened(damping)}, {"stiffness", shortened(stiffness)}};
 }
 
-bool isDelayed(const StrutEstimate& estimate) {
-  constexpr double kBeyondDoubt = 3.0;  // standard deviations
-  return std::abs(estimate.delay) > kBeyondDoubt * estimate.delay_stddev &&
-         estimate.explained > kBlockTuning.nearly_all;
-}
-
 void printBlocks(const StrutEstimate& estimate, const std::optional<double>& mass) {
   printResult("estimate", estimate, mass);
   if (estimate.friction)
     std::printf("    dry friction %.3g +- %.1g m/s^2\n", estimate.friction->force, estimate.friction->stddev);
-  if (isDelayed(estimate))
+  if (std::abs(estimate.delay) > kProven * estimate.delay_stddev && estimate.explained > kBlockTuning.nearly_all)
     std::printf("    the wheel carrier's readings are stamped %.3g +- %.1g ms late\n", 1e3 * estimate.delay,
                 1e3 * estimate.delay_stddev);
   if (!std::isnan(estimate.age))
@@ -216,8 +210,7 @@ void watchBags(const po::variables_map& values) {
 }  // namespace
 
 void health(const Arguments& arguments) {
-  po::options_description description("options");
-  addBagOptions(description);
+  po::options_description description = bagOptions();
   auto add = description.add_options();
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, as the monitor writes it, or settings with nominal values; of a vehicle "

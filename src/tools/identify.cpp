@@ -200,8 +200,7 @@ void identifyBags(const po::variables_map& values) {
 }  // namespace
 
 void identify(const Arguments& arguments) {
-  po::options_description description("options");
-  addBagOptions(description);
+  po::options_description description = bagOptions();
   auto add = description.add_options();
   add("csv", po::value<std::string>(), "write a line per regression row, full precision");
   add("output,o", po::value<std::string>(),

@@ -134,8 +134,7 @@ void inspectBags(const po::variables_map& values) {
 }  // namespace
 
 void inspect(const Arguments& arguments) {
-  po::options_description description("options");
-  addBagOptions(description);
+  po::options_description description = bagOptions();
   auto add = description.add_options();
   add("least-damping-ratio", po::value<double>()->default_value(0.1, "0.1"),
       "[-] a strut with less fails. Lehr's damping ratio: at 0.1 a bounce keeps half its size each period");

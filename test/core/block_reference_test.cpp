@@ -195,7 +195,8 @@ TEST_F(BlockReference, HasTheSameSumsOfEveryBand) {
       expectMatrix(drive, kInformation, i, band.information, regressors, regressors);
       expectMatrix(drive, kScore, i, scoreOf(band, drive.theta, 1.0), regressors, residual);
       expectMatrix(drive, kMoments, i, momentsAt(band, drive.theta), sizes, sizes);
-      const Eigen::Vector3d powers(band.wheel_power, band.body_power, band.rate_power);
+      const Eigen::Vector3d powers(band.powers[StrutBlock::Band::kWheel], band.powers[StrutBlock::Band::kBody],
+                                   band.powers[StrutBlock::Band::kRate]);
       expectMatrix(drive, kPowers, i, powers, powers, Eigen::VectorXd::Ones(1));
     }
 }

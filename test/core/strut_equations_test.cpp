@@ -26,7 +26,7 @@ double unexplained(StrutEquations& equations, StrutBlock& block, const BlockVect
   double left = 0.0, body = 0.0;
   for (const StrutBlock::Band& band : block.bands) {
     left += residualPower(band.moments, theta);
-    body += band.body_power;
+    body += band.powers[StrutBlock::Band::kBody];
   }
   return std::sqrt(left / body);
 }
@@ -241,12 +241,12 @@ TEST(StrutEquations, SumDerivativesOfTheModelAndOfTheResidualOverEveryBand) {
       for (std::size_t j = 0; j <= p; ++j)
         expectEqual(band.moments(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), regressors[i],
                     regressors[j], i, j);
-    EXPECT_NEAR(band.wheel_power, sum(w, w), 1e-9 * band.wheel_power);
+    EXPECT_NEAR(band.powers[StrutBlock::Band::kWheel], sum(w, w), 1e-9 * band.powers[StrutBlock::Band::kWheel]);
     const Eigen::ArrayXcd body = block.body.col(0);
     const Eigen::ArrayXcd rate =
         ((1.0 + theta[4]) * printed.delayed(1, block.wheel, theta[2]) - block.body.col(1)) / (printed.s * printed.s);
-    EXPECT_NEAR(band.body_power, sum(body, body), 1e-9 * band.body_power);
-    EXPECT_NEAR(band.rate_power, sum(rate, rate), 1e-9 * band.rate_power);
+    EXPECT_NEAR(band.powers[StrutBlock::Band::kBody], sum(body, body), 1e-9 * band.powers[StrutBlock::Band::kBody]);
+    EXPECT_NEAR(band.powers[StrutBlock::Band::kRate], sum(rate, rate), 1e-9 * band.powers[StrutBlock::Band::kRate]);
   }
 }
 

@@ -67,16 +67,9 @@ BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix&
 }
 
 DriveFit::Sums DriveFit::Sums::operator-(const Sums& other) const {
-  return {blocks - other.blocks,
-          information - other.information,
-          spread - other.spread,
-          scatter - other.scatter,
-          right - other.right,
-          body - other.body,
-          unexplained - other.unexplained,
-          rate - other.rate,
-          travel - other.travel,
-          weight - other.weight};
+  return {
+      blocks - other.blocks, information - other.information, spread - other.spread,           scatter - other.scatter,
+      right - other.right,   powers - other.powers,           unexplained - other.unexplained, weight - other.weight};
 }
 
 DriveFit::DriveFit(const BlockBand& band, const BlockColumns& columns)
@@ -105,10 +98,8 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     const BlockMatrix with_previous = 0.5 * score * previous.transpose();
     all_.scatter += score * score.transpose() + with_previous + with_previous.transpose();
     previous = score;
-    all_.body += weight * band.body_power;
+    all_.powers += weight * band.powers;
     all_.unexplained += weight * residualPower(band.moments, theta);
-    all_.rate += weight * band.rate_power;
-    all_.travel += weight * band.travel_power;
   }
   if (++all_.blocks % blocks_between_ != 0) return;
   if (num_instants_ == kMostInstants) {
@@ -116,7 +107,7 @@ void DriveFit::add(const StrutBlock& block, const BlockWeights& weights, const B
     num_instants_ /= 2;
     blocks_between_ *= 2;
   }
-  if (all_.blocks % blocks_between_ == 0) before_[num_instants_++] = all_;
+  before_[num_instants_++] = all_;
 }
 
 std::optional<WindowEstimate> DriveFit::estimate(const Sums& sums, const BlockPrior& prior) const {
@@ -138,8 +129,9 @@ std::optional<WindowEstimate> DriveFit::estimate(const Sums& sums, const BlockPr
   const Eigen::Matrix2d covariance = result.covariance.topLeftCorner<2, 2>();
   result.inflation = std::max(1.0, 0.5 * (covariance.inverse() * scattered.topLeftCorner<2, 2>()).trace());
   result.covariance *= result.inflation;
-  result.explained = sums.body > 0.0 ? 1.0 - sums.unexplained / sums.body : 0.0;
-  result.setMotion(sums.rate / sums.weight, sums.travel / sums.weight, length_);
+  const double body = sums.powers[StrutBlock::Band::kBody];
+  result.explained = body > 0.0 ? 1.0 - sums.unexplained / body : 0.0;
+  result.setMotion(sums.powers / sums.weight, length_);
   if (!result.isUsable()) return std::nullopt;
   return result;
 }
@@ -150,10 +142,10 @@ std::optional<WindowEstimate> DriveFit::estimate(const BlockPrior& prior) const 
   return whole;
 }
 
-// Of all stretches between two instants the one that differs most from the rest of the drive, if that is more than
-// another road does, beyond chance.
+// Compares every stretch between two instants with the rest of the drive, and keeps the one that differs most: by more
+// than another road makes a strut differ (kLeastChange), beyond chance.
 void DriveFit::findChange(const BlockPrior& prior, WindowEstimate& whole) const {
-  double most = limitFor(static_cast<double>(num_instants_ * (num_instants_ + 1)));  // two numbers of every stretch
+  double most = limitFor(static_cast<double>(num_instants_ * (num_instants_ + 1)));  // b1 and b0 of every stretch
   const auto variance = [this](const WindowEstimate& estimate) -> Eigen::Array2d {
     const Eigen::Array2d by_noise = estimate.covariance.diagonal().head<2>();
     if (!columns_.has_friction) return by_noise;
@@ -168,11 +160,10 @@ void DriveFit::findChange(const BlockPrior& prior, WindowEstimate& whole) const 
       const Eigen::Array2d rest = other->theta.head<2>(), change = one->theta.head<2>().array() - rest;
       const Eigen::Array2d deviation = (variance(*one) + variance(*other)).sqrt();
       const double beyond = ((change.abs() - kLeastChange * rest) / deviation).maxCoeff();
-      if (beyond <= most) continue;
+      if (!(beyond > most)) continue;
       most = beyond;
-      const auto time = [&](const Sums& sums) { return 0.5 * length_ * sums.blocks; };
-      whole.change = {time(before_[from]), time(before_[from]) + time(within), change[0] / rest[0],
-                      change[1] / rest[1]};
+      const double begin = 0.5 * length_ * before_[from].blocks;
+      whole.change = {begin, begin + 0.5 * length_ * within.blocks, change[0] / rest[0], change[1] / rest[1]};
     }
 }
 

@@ -24,7 +24,7 @@ void StrutBlock::Band::setZero() {
   score.setZero();
   share.setZero();
   moments.setZero();
-  wheel_power = body_power = moving_power = rate_power = travel_power = 0.0;
+  powers.setZero();
 }
 
 void StrutBlock::Band::add(double weight, const Band& other) {
@@ -33,11 +33,7 @@ void StrutBlock::Band::add(double weight, const Band& other) {
   score += weight * other.score;
   share += weight * other.share;
   moments += weight * other.moments;
-  wheel_power += weight * other.wheel_power;
-  body_power += weight * other.body_power;
-  moving_power += weight * other.moving_power;
-  rate_power += weight * other.rate_power;
-  travel_power += weight * other.travel_power;
+  powers += weight * other.powers;
 }
 
 StrutEquations::StrutEquations(const BlockBand& band, const BlockColumns& columns)
@@ -130,12 +126,12 @@ void StrutEquations::sumBands(StrutBlock& block) const {
     band.score.noalias() = z_band.transpose().lazyProduct(r_band.col(p));
     band.share = block.at[kBlockWheelShare] * band.information.col(kBlockWheelShare);
     band.moments.noalias() = r_band.transpose().lazyProduct(r_band);
-    band.wheel_power = wheel_.segment(first, size).abs2().sum();
-    band.body_power = block.body.col(0).segment(first, size).abs2().sum();
-    band.moving_power = x_.col(0).segment(first, size).abs2().sum();
+    band.powers[StrutBlock::Band::kWheel] = wheel_.segment(first, size).abs2().sum();
+    band.powers[StrutBlock::Band::kBody] = block.body.col(0).segment(first, size).abs2().sum();
+    band.powers[StrutBlock::Band::kMoving] = x_.col(0).segment(first, size).abs2().sum();
     const auto fourth = s_.segment(first, size).abs2().square();
-    band.rate_power = ((x_ - block.body).col(1).segment(first, size).abs2() / fourth).sum();
-    band.travel_power = ((x_ - block.body).col(0).segment(first, size).abs2() / fourth).sum();
+    band.powers[StrutBlock::Band::kRate] = ((x_ - block.body).col(1).segment(first, size).abs2() / fourth).sum();
+    band.powers[StrutBlock::Band::kTravel] = ((x_ - block.body).col(0).segment(first, size).abs2() / fourth).sum();
   }
 }
 

@@ -70,9 +70,8 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
 // Sums over the newest blocks: those of a smaller window before this one are there already.
 void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   const auto newest = [&](int i) -> const StrutBlock& { return *blocks[blocks_ - 1 - i]; };
-  const auto version = [&](int i) -> long& { return versions_[i]; };
   bool is_known = gathered_ <= blocks_;
-  for (int i = 0; is_known && i < gathered_; ++i) is_known = version(i) == newest(i).version;
+  for (int i = 0; is_known && i < gathered_; ++i) is_known = versions_[i] == newest(i).version;
   if (!is_known) {
     gathered_ = 0;
     weight_.setOnes();
@@ -82,7 +81,7 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
     for (StrutBlock::Band& each : sums_) each.setZero();
   }
   for (; gathered_ < blocks_; ++gathered_) {
-    version(gathered_) = newest(gathered_).version;
+    versions_[gathered_] = newest(gathered_).version;
     sum_of_weights_ += weight_[gathered_];
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].add(weight_[gathered_], newest(gathered_).bands[i]);
   }
@@ -109,7 +108,8 @@ void WindowFit::measureNoise(const BlockVector& theta) {
   const double least = std::numeric_limits<double>::epsilon() * std::numeric_limits<double>::epsilon();
   for (int i = 0; i < bands_.count(); ++i) {
     const StrutBlock::Band& sum = sums_[i];
-    const double wheel = sum.wheel_power / bands_.size(i), power = residualPower(sum.moments, theta) / bands_.size(i);
+    const double wheel = sum.powers[StrutBlock::Band::kWheel] / bands_.size(i),
+                 power = residualPower(sum.moments, theta) / bands_.size(i);
     // From so many degrees of freedom the power is known to 1 +- sqrt(2 / degrees) only: by that weights are worse than
     // the best ones, and their inverse is too large on average, each by 2 / degrees of the variance.
     const double degrees = sum_of_weights_ * bands_.size(i) / kBinCorrelation;
@@ -149,15 +149,14 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   result.alike = 0.0;
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
-  double body = 0.0, unexplained = 0.0, wheel = 0.0, rate = 0.0, travel = 0.0;
+  using Band = StrutBlock::Band;
+  Band::Powers powers = Band::Powers::Zero();
+  double unexplained = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 4> of_quarter = Eigen::Matrix<double, 2, 4>::Zero();
-  for (const StrutBlock::Band& each : sums_) {
+  for (const Band& each : sums_) {
     unexplained += residualPower(each.moments, result.theta);
-    body += each.body_power;
-    wheel += each.moving_power;
-    rate += each.rate_power;
-    travel += each.travel_power;
+    powers += each.powers;
   }
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[b];
@@ -169,9 +168,9 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
     }
   }
   const Eigen::Vector2d information = of_quarter.rowwise().sum();
-  result.explained = body > 0.0 ? 1.0 - unexplained / body : 0.0;
-  result.amplified = body / wheel;
-  result.setMotion(rate / sum_of_weights_, travel / sum_of_weights_, length_);
+  result.explained = powers[Band::kBody] > 0.0 ? 1.0 - unexplained / powers[Band::kBody] : 0.0;
+  result.amplified = powers[Band::kBody] / powers[Band::kMoving];
+  result.setMotion(powers / sum_of_weights_, length_);
   result.age = (age.array() / information.array()).maxCoeff();
   const int i = result.relativeStddev(kBlockDamping) > result.relativeStddev(kBlockStiffness) ? 0 : 1;
   result.roughest = 4.0 * of_quarter.row(i).maxCoeff() / information[i];

@@ -132,7 +132,8 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
 void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   const double seconds = taken_ && stamp > *taken_ ? std::min(toSeconds(stamp - *taken_), estimate.window) : 0.0;
   taken_ = stamp;
-  if (sensor_.fault == SensorFault::kNone) learn(stamp, estimate, seconds);
+  if (learner_ && seconds > 0.0 && sensor_.fault == SensorFault::kNone)
+    if (const std::optional<Baseline> learned = learner_->add(stamp, estimate, seconds)) setBaseline(*learned);
   ChangeFromBaseline changed = changeFrom(baseline_, estimate);
   const auto carryOn = [&](Parameter& parameter, std::optional<LogChange>& change) {
     if (change) change = parameter.trend.carryOn(*change, estimate.age, toSeconds(stamp), estimate.window, kCertain);
@@ -146,11 +147,6 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   noteLoad(change);
   since_early_ += seconds;
   warnEarly(change, estimate.window);
-}
-
-void HealthAssessment::learn(Stamp stamp, const StrutEstimate& estimate, double seconds) {
-  if (!learner_ || !(seconds > 0.0)) return;
-  if (const std::optional<Baseline> learned = learner_->add(stamp, estimate, seconds)) setBaseline(*learned);
 }
 
 // The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.

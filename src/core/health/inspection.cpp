@@ -107,12 +107,10 @@ class Inspector {
       result.frequencies.push_back(doubtOf(strut).empty() ? frequencyOf(strut.estimate) : ValueRange());
     for (InspectedNumber& number : numbers_)
       if (number.doubt.empty()) judge(number);
-    const auto any = [&](InspectionVerdict verdict) {
-      return std::any_of(numbers_.begin(), numbers_.end(), [&](const auto& its) { return its.verdict == verdict; });
-    };
-    result.verdict = InspectionVerdict::kPasses;
-    for (const InspectionVerdict worse : {InspectionVerdict::kCannotTell, InspectionVerdict::kFails})
-      if (any(worse)) result.verdict = worse;
+    using Verdict = InspectionVerdict;
+    for (const Verdict worse : {Verdict::kPasses, Verdict::kCannotTell, Verdict::kFails})
+      for (const InspectedNumber& number : numbers_)
+        if (number.verdict == worse) result.verdict = worse;
     result.numbers = std::move(numbers_);
     return result;
   }

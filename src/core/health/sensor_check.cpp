@@ -7,13 +7,6 @@
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-bool isOfMotion(SensorFault fault) {
-  return fault == SensorFault::kNegativeDamping || fault == SensorFault::kUnrelated;
-}
-
-}  // namespace
 
 SensorCheck::SensorCheck(double memory, int horizon_samples)
     : memory_(memory),
@@ -58,7 +51,8 @@ const SensorReport& SensorCheck::judge(const StrutEstimate& estimate, const Stru
   if (found != pending_) pending_since_ = samples_;
   pending_ = found;
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
-  if (isOfMotion(report_.fault) && estimate.tellsChanges()) report_.fault = SensorFault::kNone;
+  const bool of_motion = report_.fault == SensorFault::kNegativeDamping || report_.fault == SensorFault::kUnrelated;
+  if (of_motion && estimate.tellsChanges()) report_.fault = SensorFault::kNone;
   if (stuck || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
     report_.mean = {readings_[0].mean(), readings_[1].mean()};

@@ -37,10 +37,7 @@ UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<std::op
   }
 }
 
-void UdCovariance::release(int i, double variance) {
-  diagonal_[i] = variance;
-  ceiling_[i] = variance;
-}
+void UdCovariance::release(int i, double variance) { diagonal_[i] = ceiling_[i] = variance; }
 
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
   double alpha = noise;

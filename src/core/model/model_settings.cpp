@@ -57,6 +57,13 @@ std::vector<double*> valuesOf(StrutModel& model) {
   return values;
 }
 
+std::vector<std::string> effectNames(const StrutModel& model) {
+  std::vector<std::string> names;
+  for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
+  for (const ActiveMeasurementEffect& active : model.reading) names.push_back(active.effect.name);
+  return names;
+}
+
 namespace {
 
 constexpr const char* kEffects = "effects";

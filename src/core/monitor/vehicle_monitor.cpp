@@ -135,12 +135,8 @@ void VehicleMonitor::addGridSample(const VehicleSample& sample) {
   }
   for (std::size_t i = 0; i < struts_.size(); ++i) {
     const CornerSample of_strut = own->ofStrut(i);
-    if (!is_alone_) {
-      struts_[i].hold(blocks_->estimator(i).newestSayNothing());
-      struts_[i].addReading(Side::kSprung, of_strut.stamp, of_strut.sprung_acceleration);
-      struts_[i].addReading(Side::kUnsprung, of_strut.stamp, of_strut.unsprung_acceleration);
-    }
-    const MonitorReport* report = struts_[i].addGridSample(of_strut);
+    if (!is_alone_) struts_[i].hold(blocks_->estimator(i).newestSayNothing());
+    const MonitorReport* report = is_alone_ ? struts_[i].addGridSample(of_strut) : struts_[i].addSample(of_strut);
     if (report != nullptr && sink_) sink_(i, *report);
   }
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/periodogram.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
@@ -75,16 +77,11 @@ std::optional<MotionRange> rangeOfMotion(const Records& records) {
 }
 
 std::vector<std::string> takeFrequencyResponses(EffectLibrary& library) {
-  std::vector<std::string> names;
-  std::vector<ForceEffect> others;
-  for (ForceEffect& effect : library.forces) {
-    if (isFrequencyResponse(effect))
-      names.push_back(effect.name);
-    else
-      others.push_back(std::move(effect));
-  }
+  std::vector<ForceEffect>& forces = library.forces;
+  const auto first = std::stable_partition(forces.begin(), forces.end(), std::not_fn(isFrequencyResponse));
+  std::vector<std::string> names = namesOf(std::vector<ForceEffect>(first, forces.end()));
   for (const MeasurementEffect& effect : library.readings) names.push_back(effect.name);
-  library.forces = std::move(others);
+  forces.erase(first, forces.end());
   library.readings.clear();
   return names;
 }

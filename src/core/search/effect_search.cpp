@@ -222,11 +222,6 @@ class Search {
     return !only_reading && takesAll(floorOf(after, lowest));
   }
 
-  /// A suspect makes the error smaller by more than half (kMajority of its mean square).
-  bool isSuspect(const EvaluatedModel& after) const {
-    return !mayBeOtherStruts(after) && shareOf(base_, after, 0.0) > kMajority;
-  }
-
   /// @return true if other struts of the same body may have done what is taken for something else: on a body that the
   /// strut itself turns, see shareOfTurning(), they imitate any fault of its IMU but an offset, and forces on the body.
   bool mayBeOtherStruts(const EvaluatedModel& after) const {
@@ -246,7 +241,8 @@ class Search {
     const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
     if (names > 0 && isExplained(last, before)) return name(Verdict::kEffectFound, last);
     result_.separating.clear();
-    if (suspect_ && isSuspect(suspect_->chosen)) {
+    // A suspect makes the error smaller by more than half (kMajority of its mean square).
+    if (suspect_ && !mayBeOtherStruts(suspect_->chosen) && shareOf(base_, suspect_->chosen, 0.0) > kMajority) {
       noteGroup(*suspect_);
       result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
       return name(Verdict::kSuspect, suspect_->chosen);

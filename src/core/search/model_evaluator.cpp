@@ -19,13 +19,6 @@ constexpr double kPromising = 0.8;       // share of the best candidate's gain t
 constexpr double kScreeningError = 1.2;  // by how much screening may overestimate a loss
 constexpr double kScreeningTime = 0.4;   // of a round
 
-std::vector<std::string> namesOf(const StrutModel& model) {
-  std::vector<std::string> names;
-  for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
-  for (const ActiveMeasurementEffect& reading : model.reading) names.push_back(reading.effect.name);
-  return names;
-}
-
 // A model that was fitted can still run away in the stretches that were held out.
 FitFailure runningAway(const EvaluatedModel& evaluated) {
   return std::isfinite(evaluated.ranked.held_out_rmse) ? FitFailure::kNone : FitFailure::kRunsAway;
@@ -71,7 +64,7 @@ ModelEvaluator::ModelEvaluator(const Records& records, const HoldOut& held_out, 
 EvaluatedModel ModelEvaluator::weighed(const StrutModel& model, const Residuals& residuals) const {
   EvaluatedModel evaluated;
   evaluated.ranked.model = model;
-  evaluated.ranked.effects = namesOf(model);
+  evaluated.ranked.effects = effectNames(model);
   evaluated.ranked.held_out_rmse = held_out_.rmse(held_out_.stretchErrors(residuals));
   evaluated.stretches = held_out_.stretchLosses(residuals, outlier_);
   evaluated.independent = held_out_.independentSquares(residuals);

@@ -14,8 +14,8 @@ const double kConvincing = std::log(1e3);                     // likelihood rati
 
 }  // namespace
 
-// Distances count from their mean: what the regular times of all these readings are off by displaces none against
-// another.
+// Distances count from their mean: an error that the regular times of all these readings share displaces none of them
+// against another.
 void SamplingTest::add(double value, double off) {
   values_.push(value);
   off_.push(off);

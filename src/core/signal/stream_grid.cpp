@@ -99,18 +99,15 @@ Stamp checked(double period) {
   return fromSeconds(period);
 }
 
-std::optional<AlignmentJudge> judgeFor(Alignment alignment, Stamp period, int fill_samples, std::size_t streams) {
-  if (alignment != Alignment::kAuto) return std::nullopt;
-  return AlignmentJudge(period, fill_samples, streams);
-}
-
 }  // namespace
 
 StreamGrid::StreamGrid(double period, const std::vector<StreamOptions>& streams, Alignment alignment, int fill_samples)
     : period_(checked(period)),
       resamples_(alignment == Alignment::kResampled),
       streams_(period_, streams),
-      paired_(period_, judgeFor(alignment, period_, fill_samples, streams.size())),
+      paired_(period_, alignment == Alignment::kAuto
+                           ? std::optional<AlignmentJudge>(std::in_place, period_, fill_samples, streams.size())
+                           : std::nullopt),
       resampled_(period_, streams.size()),
       instant_{{}, std::vector<double>(streams.size()), std::vector<bool>(streams.size())} {}
 

@@ -1,7 +1,9 @@
 #include "suspension_health_monitor/internal/simulation/sensors.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 namespace suspension_health_monitor {
 namespace {
@@ -108,22 +110,18 @@ Sway SwaySensor::read(Sway sway) {
 
 SimulatedFaults SimulatedFaults::from(const std::vector<ActiveMeasurementEffect>& hidden) {
   SimulatedFaults faults;
-  for (const ActiveMeasurementEffect& active : hidden) {
-    const std::string& name = active.effect.name;
-    const std::vector<double>& sizes = active.coefficients;
-    if (name == "clock_offset")
-      faults.delay = sizes.at(0);
-    else if (name == "accelerometer_bias")
-      faults.bias = sizes.at(0);
-    else if (name == "scale_error")
-      faults.gain_error = sizes.at(0);
-    else if (name == "mount_tilt")
-      faults.tilt = {sizes.at(0), sizes.at(1)};
-    else if (name == "lever_arm")
-      faults.position = {sizes.at(0), sizes.at(1)};
-    else
-      throw std::invalid_argument("hidden fault " + name + ", must be one of clock_offset, accelerometer_bias, " +
+  const std::map<std::string, std::vector<double*>> known{{"accelerometer_bias", {&faults.bias}},
+                                                          {"clock_offset", {&faults.delay}},
+                                                          {"lever_arm", {&faults.position[0], &faults.position[1]}},
+                                                          {"mount_tilt", {&faults.tilt[0], &faults.tilt[1]}},
+                                                          {"scale_error", {&faults.gain_error}}};
+  for (const auto& [effect, sizes] : hidden) {
+    const auto found = known.find(effect.name);
+    if (found == known.end())
+      throw std::invalid_argument("hidden fault " + effect.name +
+                                  ", must be one of clock_offset, accelerometer_bias, " +
                                   "scale_error, mount_tilt, lever_arm");
+    for (std::size_t i = 0; i < found->second.size(); ++i) *found->second[i] = sizes.at(i);
   }
   return faults;
 }

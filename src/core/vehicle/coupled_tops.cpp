@@ -34,14 +34,8 @@ void VehicleSpectra::push(const VehicleReading& reading, double time, double dir
     return streams_[reading.place].push(time, of_wheel, phases_);
   }
   const double wx = values[3], wy = values[4], wz = values[5];
-  std::array<double, kBodyChannels> of_body;
-  of_body[kAz] = values[2];
-  of_body[kWx] = wx;
-  of_body[kWy] = wy;
-  of_body[kWzWx] = wz * wx;
-  of_body[kWzWy] = wz * wy;
-  of_body[kWx2Wy2] = wx * wx + wy * wy;
-  streams_[body_].push(time, of_body.data(), phases_);
+  const double of_body[kBodyChannels] = {values[2], wx, wy, wz * wx, wz * wy, wx * wx + wy * wy};  // as BodyChannel
+  streams_[body_].push(time, of_body, phases_);
 }
 
 void VehicleSpectra::restart() {

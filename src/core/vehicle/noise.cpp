@@ -59,13 +59,11 @@ SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, doub
   const auto add = [&](std::size_t stream, double deviation) {
     noise.push_back(responseOf(tops, channels.struts.size(), period, num_streams, stream, deviation));
   };
-  bool needs_body = false;
   for (const VehicleChannels::Strut& strut : channels.struts) {
     add(strut.unsprung, 1.0);
     if (strut.sprung) add(*strut.sprung, 1.0);
-    needs_body |= !strut.sprung;
   }
-  for (std::size_t axis = 0; needs_body && axis < 6; ++axis)
+  for (std::size_t axis = 0; channels.numTopsOfBody() > 0 && axis < 6; ++axis)
     add(*channels.body_imu + axis, axis < 3 ? 1.0 : gyro_noise);
   return noise;
 }

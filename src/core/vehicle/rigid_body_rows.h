@@ -85,13 +85,6 @@ inline const double kLogInertiaStddev = 2.0 * std::log(2.0);
 /// Levenberg-Marquardt.
 class RigidBodyRows {
  public:
-  using Scalar = double;
-  using InputType = Eigen::VectorXd;
-  using ValueType = Eigen::VectorXd;
-  using JacobianType = Eigen::MatrixXd;
-  using QRSolver = Eigen::ColPivHouseholderQR<JacobianType>;
-  enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
-
   /// @param phi  error of the model.
   RigidBodyRows(const RigidBody& body, const BodyRows& rows, double phi)
       : body_(body),

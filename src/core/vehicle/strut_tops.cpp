@@ -19,10 +19,8 @@ Eigen::Vector3d threeFrom(const std::vector<double>& values, std::size_t first) 
 }  // namespace
 
 StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(channels) {
-  const std::size_t struts = channels_.struts.size();
-  const auto own = std::count_if(channels_.struts.begin(), channels_.struts.end(),
-                                 [](const Strut& strut) { return strut.sprung.has_value(); });
-  const bool needs_body = static_cast<std::size_t>(own) < struts;
+  const std::size_t struts = channels_.struts.size(), own = struts - channels_.numTopsOfBody();
+  const bool needs_body = own < struts;
   if (needs_body && !channels_.body_imu)
     throw std::invalid_argument("a strut without a sprung stream of its own needs the body's IMU");
   for (const Strut& strut : channels_.struts)
@@ -30,7 +28,7 @@ StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(
       throw std::invalid_argument("a strut without a sprung stream of its own needs a position");
   requireNumStruts(struts);
   requireNumKnownForces(channels_.known_forces.size());
-  const std::size_t measured = struts + static_cast<std::size_t>(own) + channels_.known_forces.size();
+  const std::size_t measured = struts + own + channels_.known_forces.size();
   signals_.reserve(measured + kBodySignals + kBodyRates);
   if (needs_body) filter_.emplace(period, measured + kBodySignals, kBodyRates);
   const StrutVector none = StrutVector::Zero(struts);
@@ -68,12 +66,9 @@ void StrutTops::collect(const GridInstant& instant) {
   if (!filter_) return;
   const Eigen::Vector3d acceleration = channels_.body_mount * threeFrom(instant.values, *channels_.body_imu);
   const Eigen::Vector3d rate = channels_.body_mount * threeFrom(instant.values, *channels_.body_imu + 3);
-  signals_.push_back(acceleration.z());
-  signals_.push_back(rate.z() * rate.x());
-  signals_.push_back(rate.z() * rate.y());
-  signals_.push_back(-rate.x() * rate.x() - rate.y() * rate.y());
-  signals_.push_back(rate.x());
-  signals_.push_back(rate.y());
+  for (const double signal : {acceleration.z(), rate.z() * rate.x(), rate.z() * rate.y(),
+                              -rate.x() * rate.x() - rate.y() * rate.y(), rate.x(), rate.y()})
+    signals_.push_back(signal);
 }
 
 void StrutTops::spread(const std::vector<double>& values, const std::vector<double>& rates) {

@@ -168,7 +168,8 @@ bool VehicleClaims::work() {
   else
     judge(hypotheses_[next_ - bins - 1]);
   if (++next_ <= bins + hypotheses_.size()) return false;
-  // What goes with the wheels and no row explains may lie along any of the 2 n columns. Struts on links leave 0.1 %.
+  // The motion that goes with the wheels, but that no row explains, may lie along any of the 2 n columns: each of them
+  // has its share. Struts on links leave 0.1 % of the motion unexplained.
   const double each = filed_.unexplained / (2.0 * static_cast<double>(n_));
   if (found_.kind != Kind::kNone || each < square(kWorthHaving) || filed_.unexplained < noiseShare() * noise_)
     return true;
@@ -226,7 +227,7 @@ void VehicleClaims::judge(const Hypothesis& hypothesis) {
       found_ = other;
     }
   }
-  // Other mistakes are looked for in what a delay by links, of all tops, leaves: it would hide them.
+  // A delay of all tops that links make would hide other mistakes: they are looked for in what it leaves.
   if (hypothesis.kind != allTops() || !is_by_links || found_.kind != Kind::kNone || left > filed_.unexplained) return;
   late_tops_ = other.size;
   in_step_ = moments(asFiled().delays);

@@ -27,7 +27,7 @@ std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
 
 void VehicleBlocks::beginRows(BodyRows& rows) const {
   const std::size_t n = size();
-  rows.is_by_body = isByBody();
+  rows.is_by_body = vehicle_.numTopsOfBody() == n;
   rows.rate.resize(n, n);
   rows.travel.resize(n, n);
   rows.force.resize(n, vehicle_.known_forces.size());

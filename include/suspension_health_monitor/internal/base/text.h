@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -21,12 +20,12 @@ inline const std::string kNameCharacters = kLetters + "0123456789_";
 /// letters to change (Levenshtein's distance); empty if that is more than half of them.
 std::string suggestNearest(const std::string& name, const std::vector<std::string>& known);
 
+/// @return the text that std::printf would write.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
 /// @return the number as short as it can be told from its neighbours that somebody would write: "0.02", "1e+300".
 inline std::string numberText(double value) {
-  if (std::isnan(value)) return "nan";  // of either sign
-  char text[32];
-  std::snprintf(text, sizeof text, "%.15g", value);
-  return text;
+  return std::isnan(value) ? "nan" : formatted("%.15g", value);  // NaN of either sign
 }
 
 /// @return what somebody else has written, for a message of one line: without control characters, and cut, with its
@@ -85,9 +84,6 @@ std::vector<std::string> namesOf(const Records& records) {
   for (const auto& record : records) names.push_back(record.name);
   return names;
 }
-
-/// @return the text that std::printf would write.
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
 /// @return the size of a change in whole percent, whatever its sign: "12 %".
 std::string sizeInPercent(double change);

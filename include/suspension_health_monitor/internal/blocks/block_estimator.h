@@ -17,8 +17,9 @@ inline constexpr std::array kBlockWindows{3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
 
 /// The estimate over a drive of any length: the normal equations of WindowFit, summed block by block with the weights
 /// and at the parameters of their time. The equations are linear in b1 and b0 whatever they are weighted by, so that
-/// this is consistent; memory and cost do not grow with the drive. The sums at some instants, evenly spread over the
-/// drive, tell every stretch between two of them from the rest. Cost per block: O(bands * parameters^2), no allocation.
+/// this is consistent; memory and cost do not grow with the drive. The sums are kept at up to 16 instants, evenly
+/// spread over the drive, so that every stretch between two of them can be compared with the rest. Cost per block:
+/// O(bands * parameters^2), no allocation.
 class DriveFit {
  public:
   DriveFit(const BlockBand& band, const BlockColumns& columns);
@@ -32,16 +33,18 @@ class DriveFit {
   int blocks() const { return all_.blocks; }
 
  private:
-  /// Over blocks.
+  /// Sums over blocks.
   struct Sums {
     int blocks = 0;
     Eigen::MatrixXd information, spread, scatter;  // of Z'R / s2, Z'Z / s2, and of the scores' products
     Eigen::VectorXd right;
-    double body = 0.0, unexplained = 0.0, rate = 0.0, travel = 0.0, weight = 0.0;
+    StrutBlock::Band::Powers powers = StrutBlock::Band::Powers::Zero();
+    double unexplained = 0.0, weight = 0.0;
 
     Sums operator-(const Sums& other) const;
   };
-  static constexpr std::size_t kMostInstants = 16;  // then every other one goes: they are a tenth of a drive apart
+  /// Even. Where one more comes every other one is dropped: so 8 to 16 are left of a long drive.
+  static constexpr std::size_t kMostInstants = 16;
 
   std::optional<WindowEstimate> estimate(const Sums& sums, const BlockPrior& prior) const;
   void findChange(const BlockPrior& prior, WindowEstimate& whole) const;
@@ -50,8 +53,8 @@ class DriveFit {
   NoiseBands bands_;
   BlockColumns columns_;
   Sums all_;
-  std::vector<Sums> before_;  // up to each instant; the first num_instants_ of them
-  std::size_t num_instants_ = 1;
+  std::vector<Sums> before_;           // of the blocks before each instant; only the first num_instants_ count
+  std::size_t num_instants_ = 1;       // the start of the drive
   int blocks_between_ = 1;             // two instants
   std::vector<BlockVector> previous_;  // scores of the block before, by band
 };

@@ -53,11 +53,10 @@ struct StrutBlock {
     Eigen::VectorXd score;        ///< Z'c
     Eigen::VectorXd share;        ///< Z'R of r, times r
     Eigen::MatrixXd moments;      ///< R'R with c as the last column
-    double wheel_power = 0.0;     ///< |W^|^2
-    double body_power = 0.0;      ///< |H_0(Y)|^2
-    double moving_power = 0.0;    ///< |H_0(X)|^2
-    double rate_power = 0.0;      ///< |H_1(X - Y)|^2 / |s|^4
-    double travel_power = 0.0;    ///< |H_0(X - Y)|^2 / |s|^4
+    /// |W^|^2, |H_0(Y)|^2, |H_0(X)|^2, |H_1(X - Y)|^2 / |s|^4, |H_0(X - Y)|^2 / |s|^4.
+    enum Power { kWheel, kBody, kMoving, kRate, kTravel, kNumPowers };
+    using Powers = Eigen::Array<double, kNumPowers, 1>;
+    Powers powers;
 
     explicit Band(Eigen::Index parameters);
     void setZero();

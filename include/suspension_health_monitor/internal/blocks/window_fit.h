@@ -48,17 +48,16 @@ struct WindowEstimate {
   double relativeStddev(int i) const {
     return std::sqrt(covariance(i, i)) / (i == kBlockDamping ? leastDamping(theta[0], theta[1]) : theta[i]);
   }
-  /// @param rate_power, travel_power  means over blocks of the sum over bins of |H_1(X - Y)|^2 / |s|^4, and of H_0. By
-  /// Parseval the mean square of a signal over a block of length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) =
-  /// 3/8.
-  void setMotion(double rate_power, double travel_power, double length) {
-    rate = std::sqrt(2.0 * rate_power / 0.375) / length;
-    travel = std::sqrt(2.0 * travel_power / 0.375) / length;
+  /// @param powers  means over blocks of the sums over bins. By Parseval the mean square of a signal over a block of
+  /// length T is 2 / (T^2 mean(hann^2)) times that, mean(hann^2) = 3/8.
+  void setMotion(const StrutBlock::Band::Powers& powers, double length) {
+    rate = std::sqrt(2.0 * powers[StrutBlock::Band::kRate] / 0.375) / length;
+    travel = std::sqrt(2.0 * powers[StrutBlock::Band::kTravel] / 0.375) / length;
   }
   /// @return g: friction f acts as g f of b1 [s/m]. Of a normal distribution of the rate the least squares line through
   /// Coulomb's law has this slope.
   double frictionGain() const { return rate > 0.0 ? std::sqrt(2.0 / M_PI) / rate : 0.0; }
-  /// @return that of the first force.
+  /// @pre the first force is dry friction.
   DryFriction dryFriction() const {
     constexpr int i = kNumBlockParameters;
     const double gain = frictionGain();

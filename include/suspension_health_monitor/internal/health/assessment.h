@@ -81,7 +81,6 @@ class HealthAssessment {
   };
 
   void take(Stamp stamp, const StrutEstimate& estimate);
-  void learn(Stamp stamp, const StrutEstimate& estimate, double seconds);
   void noteLoad(const StrutChange& change);
   LoadDoubt doubtOfLoad(const StrutChange& change) const;
   void judge(const StrutChange& change);

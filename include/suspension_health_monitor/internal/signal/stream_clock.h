@@ -13,10 +13,11 @@
 namespace suspension_health_monitor {
 
 /// Whether the readings of a stream were taken regularly, or when their stamps say. With d_k the distance of a stamp
-/// from the regular time a reading is x_k = x(regular) or x(regular) + x' d_k. Fourth differences D take a slow signal
-/// out of that: e = D x_k is unexplained, or e - r with r = D (x'_k d_k), x' from the readings next to x_k. Over the
-/// newest 10 000 readings the smaller sum of squares is the likelier one. Where x' is noise the test has no power, but
-/// d_k does no harm. Cost per reading: O(1), no allocation.
+/// from the regular time, a reading is x(regular) if it was taken regularly, and x(regular) + x' d_k if it was taken as
+/// stamped. Fourth differences D take a slow signal out of the readings x_k: e = D x_k is left in the first case, e - r
+/// in the second, with r = D (x'_k d_k) and x' from the readings next to x_k. The case with the smaller sum of squares
+/// over the newest 10 000 readings is the likelier one. Where x' is noise the test has no power, but then d_k does no
+/// harm. Cost per reading: O(1), no allocation.
 class SamplingTest {
  public:
   /// Takes in the next reading.  @param off  d_k, in periods.
@@ -25,7 +26,8 @@ class SamplingTest {
   /// Readings are missing before the next one.
   void interrupt() { in_a_row_ = 0; }
 
-  /// @return true if that is likelier; both false: nobody knows.
+  /// @return true if that is likelier; both false: there are no readings yet, or they do not move. The sums of squares
+  /// of e - r and e differ by r^2 - 2 r e.
   bool isRegular() const { return products_.mean(0) > 2.0 * products_.mean(1); }
   bool isAsStamped() const { return products_.mean(0) < 2.0 * products_.mean(1); }
 

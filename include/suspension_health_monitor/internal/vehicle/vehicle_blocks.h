@@ -107,7 +107,6 @@ class VehicleBlocks {
   void begin(double length);
   std::size_t size() const { return vehicle_.struts.size(); }
   bool isAlone() const { return size() == 1; }
-  bool isByBody() const { return vehicle_.numTopsOfBody() == size(); }
   bool looksForFriction() const { return columns_.has_friction; }
   /// Column of the travel rate of strut j in the row of strut i; that of its travel is the next.
   int columnOf(std::size_t i, std::size_t j) const {

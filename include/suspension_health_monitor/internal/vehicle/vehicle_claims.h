@@ -70,9 +70,9 @@ class VehicleClaims {
   /// @pre work() has returned true.
   const VehicleMistake& found() const { return found_; }
 
-  /// @return by strut the relative standard deviation of b1 and b0 by what the rows lack: the change by a delay that
-  /// explains more of the motion, but is too small to be a clock's (links and rubber turn phases by as much), and, of
-  /// kOthers, what goes with the wheels unexplained.
+  /// @return by strut the relative standard deviation of b1 and b0 that comes of what the rows lack. A delay that
+  /// halves the unexplained motion, but is too small to be a clock's (links and rubber turn phases by as much), adds
+  /// the change that it makes; kOthers adds the motion that goes with the wheels and stays unexplained.
   const Eigen::ArrayXXd& modelErrors() const { return model_errors_; }
 
   /// Does all portions.
@@ -107,7 +107,8 @@ class VehicleClaims {
   struct Rows {
     double unexplained;   ///< mean over the tops of the share of z'' that they leave
     Eigen::ArrayXXd own;  ///< b1_ii, b0_ii, by strut
-    /// Power of what these alone move, over that of the top, whatever the others move against it.
+    /// Power of the motion that each of these makes of its own column, over that of the top; the columns of other
+    /// struts may move the top against it, so that it can be above 1.
     Eigen::ArrayXXd moved;
   };
   Rows fit(const Mapping& mapping, const Eigen::MatrixXd& moments) const;
@@ -117,25 +118,26 @@ class VehicleClaims {
   void addPositions(std::vector<Hypothesis>& all) const;
   void addDelays(std::vector<Hypothesis>& all) const;
   VehicleMistake sameOrAlike() const;
-  VehicleMistake::Kind allTops() const {  // are late
+  /// @return the mistake that all tops are late.
+  VehicleMistake::Kind allTops() const {
     return isByBody() ? VehicleMistake::Kind::kLateBody : VehicleMistake::Kind::kLateTops;
   }
 
   Eigen::Index n_, forces_;
   Eigen::ArrayXcd s_;
-  std::vector<Eigen::Index> of_body_;  // struts whose tops the body's IMU tells of
-  StrutPlaces places_;                 // of these
+  std::vector<Eigen::Index> of_body_;  // struts whose tops the body's IMU tells
+  StrutPlaces places_;                 // of these tops
   // By bin, in a column per block, newest first: by p the wheels, then the tops; forces; of displacements.
   std::vector<Eigen::MatrixXcd> columns_;
   std::vector<Eigen::MatrixXcd> products_;  // by bin: of columns_, what goes with the wheels
   Eigen::MatrixXd whole_;                   // of H_0 of wheels and tops, all bins
-  Eigen::MatrixXd measured_, in_step_;      // sums over bins: of all that was measured, of products_
+  Eigen::MatrixXd measured_, in_step_;      // sums over bins: of all that was measured, of products_ less late_tops_
   std::vector<Hypothesis> hypotheses_;
   std::size_t next_ = 0;     // bin, then hypothesis
-  Rows filed_{1.0, {}, {}};  // of what goes with the wheels, by the file
+  Rows filed_{1.0, {}, {}};  // of in_step_, by the file
   double noise_ = 0.0;       // share of the tops' motion that does not go with the wheels
   Eigen::ArrayXXd model_errors_;
-  double late_tops_ = 0.0;  // [s], by links, taken out of in_step_
+  double late_tops_ = 0.0;  // delay of all tops that links make [s]
   double least_ = 0.0;      // that a hypothesis leaves
   int blocks_ = 0;
   bool gyro_died_;

@@ -46,7 +46,8 @@ struct VehicleSample {
   CornerSample ofStrut(std::size_t i) const { return {stamp, sprung[i], unsprung[i]}; }
 };
 
-/// x, y by strut, where the body's IMU tells of its top [m]; nothing where that has a sensor of its own.
+/// By strut x and y of its top [m] if the body's IMU tells the top's motion; nothing if the top has a sensor of its
+/// own.
 using TopsOfBody = std::vector<std::optional<std::array<double, 2>>>;
 
 /// Which streams of a StreamGrid are what on a vehicle. All of them but the road must be required ones.
@@ -82,14 +83,13 @@ struct VehicleChannels {
     if (result.size() < struts.size()) result.clear();
     return result;
   }
-  /// @return where the tops are that the body's IMU tells of.
   TopsOfBody topsOfBody() const {
     TopsOfBody result(struts.size());
     for (std::size_t i = 0; i < struts.size(); ++i)
       if (!struts[i].sprung) result[i].emplace(std::array<double, 2>{struts[i].position->x(), struts[i].position->y()});
     return result;
   }
-  /// @return how many they are.
+  /// @return how many struts' tops the body's IMU tells.
   std::size_t numTopsOfBody() const {
     return static_cast<std::size_t>(
         std::count_if(struts.begin(), struts.end(), [](const Strut& strut) { return !strut.sprung; }));

@@ -12,7 +12,7 @@ namespace suspension_health_monitor {
 
 /// What came of a recording, in words for people: of bags and of arrays.
 
-/// @return what to tell and to do where the strut is not the same over a drive.
+/// @return by how much a stretch of a drive differs from the rest, and what to do.
 std::string describe(const ChangedStretch& stretch);
 
 /// @return what was kept out, reason by reason: "; rejected clipped: 12"; empty if nothing was.
