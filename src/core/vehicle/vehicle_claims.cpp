@@ -96,7 +96,7 @@ VehicleClaims::Rows VehicleClaims::fit(const Mapping& mapping, const Eigen::Matr
   result.own.col(1) = rows.middleRows(n_, n_).diagonal();
   const Eigen::ArrayXd powers = products.diagonal().head(2 * n_).array();
   result.moved = result.own.square() * Eigen::Map<const Eigen::ArrayXXd>(powers.data(), n_, 2);
-  result.moved.colwise() /= total;
+  result.moved.colwise() /= (total > 0.0).select(total, 1.0);
   return result;
 }
 
