@@ -15,6 +15,14 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+TEST(BandNoise, IsTheSameStepByStepAndAtOnce) {
+  const BandNoise asked(1, 0.0, 200.0, 1.0);
+  const double step = 1.0 / 24400.0;
+  for (int k = 0; k <= 100000; ++k) asked(k * step);
+  for (const double t : {100000 * step, 3.0, 3.0 + step, 3.0 + 2.0 * step, 1.0})
+    EXPECT_NEAR(asked(t), BandNoise(1, 0.0, 200.0, 1.0)(t), 1e-9) << t;
+}
+
 // An oscillator with a cubic spring, in the units of an electronic one: 68 Hz, sampled at 610 Hz, shaken up to 200 Hz.
 DrivenMass duffing(int seed) {
   const double omega = 2.0 * M_PI * 68.0, b1 = 0.2 * omega, b0 = omega * omega;
