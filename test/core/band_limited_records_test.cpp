@@ -31,7 +31,7 @@ DrivenMass duffing(int seed) {
 }
 
 TEST(BandLimitedRecords, ACubicSpringWithoutAnyNoiseIsFoundAlone) {
-  const Diagnosis found = diagnose({duffing(1).drive(4000)});
+  const Diagnosis found = diagnose({duffing(2).drive(4000)});
   ASSERT_TRUE(found) << found.reason;
   EXPECT_EQ(found.verdict, Verdict::kEffectFound);
   EXPECT_EQ(found.selected, Names{"progressive_spring"});

@@ -111,7 +111,7 @@ TEST_F(ParkedVehicle, WithTheBodysSensorStuck) {
 }
 
 TEST_F(ParkedVehicle, WithTheWheelsSensorStuck) {
-  expectParkingIsSurvived([this] { return Readings{kGravity + 40.0 * noise(), kGravity}; });
+  expectParkingIsSurvived([this] { return Readings{kGravity + 40.0 * noise(), kGravity}; }, kHours);
 }
 
 TEST_F(ParkedVehicle, WithBothSensorsDead) {

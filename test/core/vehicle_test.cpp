@@ -141,11 +141,11 @@ TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
   const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(120.0))};
   DiagnoseOptions options;
   options.candidates = {{law, findEffect(builtInEffects().forces, "asymmetric_damping")}, {}};
-  const VehicleDiagnosis first = diagnoseVehicle(drives, strutNames(vehicle), options);
+  const VehicleDiagnosis first = diagnoseVehicle(drives, strutNames(vehicle), {options});
   ASSERT_TRUE(first) << first.coupling.reason;
   ASSERT_EQ(first.struts[0].selected, std::vector<std::string>{"quadratic_damping"}) << first.summary;
   const VehicleDiagnosis again =
-      diagnoseVehicle(drives, strutNames(vehicle), options, {first.struts[0].model(), std::nullopt});
+      diagnoseVehicle(drives, strutNames(vehicle), {options}, {first.struts[0].model(), std::nullopt});
   EXPECT_TRUE(again.struts[0].selected.empty()) << again.summary;
   EXPECT_EQ(again.struts[0].base.model.effects.size(), 1U);
   EXPECT_TRUE(again.struts[1].base.model.effects.empty());
@@ -158,7 +158,7 @@ TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
                                          strutDrives(vehicle, vehicleDrive(30.0))};
   DiagnoseOptions options;
   options.candidates = {{findEffect(builtInEffects().forces, "quadratic_damping")}, {}};  // what is judged is the base
-  const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle), options);
+  const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle), {options});
   ASSERT_TRUE(found) << found.coupling.reason;
   ASSERT_EQ(found.drives.size(), 2U);
   for (std::size_t i = 0; i < found.drives.size(); ++i) {
