@@ -32,8 +32,8 @@ def make_bags(program, folder, case):
     if case == "several":
         bags = [bag, folder / "second.bag"]
         for seed, path in enumerate(bags):
-            duration = ["--duration", "30"] if seed else []  # of the second
-            program.succeed("simulate", *DRIVE, *duration, "--seed", seed + 1, "--effect", "asymmetric_damping=1.3", "--effect",
+            drive = [*DRIVE[:-1], "30"] if seed else DRIVE
+            program.succeed("simulate", *drive, "--seed", seed + 1, "--effect", "asymmetric_damping=1.3", "--effect",
                             "bump_stop=90,g=0.012", "-o", path)
         return bags
     hidden = {"friction": ["--effect", "coulomb_friction=0.35,vs=0.02"]}.get(case, [])
