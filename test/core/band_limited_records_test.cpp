@@ -110,12 +110,12 @@ TEST(TextbookLaws, TheDragOfTheBodyIsNoMount) {
 
 // From 0.5 to 8 Hz, with an actuator that follows the drive.
 TEST(TextbookLaws, ASweepWithAnActuatorNamesNoDrift) {
-  const auto sweep = [](double t) { return 3.0 * std::sin(2.0 * M_PI * (0.5 * t + 7.5 / 120.0 * t * t)); };
+  const auto sweep = [](double t) { return 3.0 * std::sin(2.0 * M_PI * (0.5 * t + 7.5 / 240.0 * t * t)); };
   const DrivenMass strut{
       100.0, sweep,
       [&](const MassState& x, double t) { return 6.0 * x.v + 63.0 * x.d + 0.15 * sweep(t - 0.03) - 0.5 * x.body; },
       [](const MassState&) { return 0.0; }, 0.03};
-  const Diagnosis found = diagnose({strut.drive(6000)});
+  const Diagnosis found = diagnose({strut.drive(12000)});
   ASSERT_TRUE(found) << found.reason;
   for (const std::string& name : found.selected) EXPECT_EQ(name.find("drift"), std::string::npos) << name;
 }
