@@ -39,8 +39,9 @@ def test_curves_are_the_true_laws(program, tmp_path, bag, command):
         assert_holds(curve, variable, law)
 
 
-@pytest.mark.parametrize("model, effect", [("ugv", None), ("sedan", ("front_left", HARDER))])
-@pytest.mark.parametrize("command", [["identify", "--curves"], ["diagnose"]])
+@pytest.mark.parametrize("command, model, effect", [
+    (["identify", "--curves"], "ugv", None), (["identify", "--curves"], "sedan", ("front_left", HARDER)),
+    (["diagnose"], "sedan", ("front_left", HARDER))])
 def test_curves_of_a_vehicle_are_those_of_its_struts(program, tmp_path, command, model, effect):
     bag, vehicle = tmp_path / "drive.bag", tmp_path / "vehicle.yaml"
     hidden = ["--effect", f"{effect[0]}/asymmetric_damping={effect[1]}"] if effect else []

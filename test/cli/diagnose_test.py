@@ -40,8 +40,8 @@ def test_wear_is_named_and_lost_data_is_no_effect(program, tmp_path, scenario):
 
 
 def test_several_threads_find_the_same(program, tmp_path):
-    results = [diagnose(program, tmp_path, [*DRIVE, "--effect", "quadratic_damping=1.6"], "--threads", str(threads))[1]
-               for threads in (1, 2)]
+    hidden = ["--effect", "quadratic_damping=1.6", "--duration", "40"]
+    results = [diagnose(program, tmp_path, [*DRIVE, *hidden], "--threads", str(threads))[1] for threads in (1, 2)]
     assert results[0] == results[1]
 
 

@@ -46,6 +46,20 @@ def succeed(folder, *arguments, **keywords):
     return output
 
 
+def run_here(capsys, *arguments):
+    """The same in this process, for what ends before a cluster starts: half of a run is its imports."""
+    from suspension_health_monitor.fleet.command import main
+    before = signal.getsignal(signal.SIGTERM), sys.unraisablehook
+    try:
+        status = main(list(map(str, arguments)))
+    except SystemExit as end:  # of argparse
+        status = end.code
+    finally:
+        signal.signal(signal.SIGTERM, before[0])
+        sys.unraisablehook = before[1]
+    return (status, *capsys.readouterr())
+
+
 def copies(bag, folder, count, first=0):
     """Bags that differ in the padding of their header only: as many contents of the same drive."""
     content = pathlib.Path(bag).read_bytes()

@@ -53,7 +53,7 @@ def bags(program, tmp_path_factory):
     return folder / "robot"
 
 
-def test_two_clients_at_once_and_one_is_killed(program, bags, server, tmp_path, monkeypatch):
+def test_two_clients_at_once_and_one_is_killed(program, bags, server, tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("REAL", program.path)
     slow = fleet.write_program(tmp_path / "slow", '[ "$1" = identify ] && sleep 0.3')
     clients = [fleet.start(tmp_path, "scan", bags, "--db", server, "--workers", 1, program=slow) for _ in range(3)]
@@ -66,7 +66,7 @@ def test_two_clients_at_once_and_one_is_killed(program, bags, server, tmp_path, 
         assert f"{BAGS + 1} bags: " in output and "secret" not in output, "the password is nobody's business"
     assert fleet.statuses(server) == {"ok": BAGS, "unreadable": 1}
     fleet.require_whole(server)
-    assert f"{BAGS + 1} known" in fleet.succeed(tmp_path, "scan", bags, "--db", server)
+    assert f"{BAGS + 1} known" in fleet.run_here(capsys, "scan", bags, "--db", server)[1]
 
 
 def has_rows(url, count):
@@ -91,13 +91,12 @@ def test_a_database_of_schema_1_is_migrated_in_place(server):
     fleet.require_migration(of_its_own)
 
 
-def test_a_newer_schema_is_refused(server, tmp_path):
+def test_a_newer_schema_is_refused(server, tmp_path, capsys):
     import sqlalchemy
     engine = sqlalchemy.create_engine(server)
     with engine.begin() as connection:
         connection.execute(sqlalchemy.text("UPDATE fleet_schema SET version = 3"))
-    status, output, error = fleet.run(tmp_path, "scan", tmp_path, "--db", server)
-    assert (status, output) == (3, "")
+    assert fleet.run_here(capsys, "scan", tmp_path, "--db", server)[:2] == (3, "")
     (tmp_path / "a.bag").write_text("no bag\n")
-    status, output, error = fleet.run(tmp_path, "scan", tmp_path, "--db", server)
+    status, output, error = fleet.run_here(capsys, "scan", tmp_path, "--db", server)
     assert (status, output) == (3, "") and "has schema version 3, this program knows 2" in error

@@ -2,7 +2,6 @@
 import base64
 import dataclasses
 import errno
-import itertools
 import json
 import os
 import re
@@ -414,7 +413,7 @@ def test_packed_numbers_are_those_of_the_drives(fleet):
     assert spread == pytest.approx(np.concatenate([damping.stddev, stiffness.stddev]), rel=0.02)
 
 
-@pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))
+@pytest.mark.parametrize("width, dark", [(1400, False), (390, True)])  # colours move nothing
 def test_nothing_is_cut_off(fleet, width, dark):
     profile = fleet.folder / f"measured_{width}_{dark}"
     profile.mkdir()

@@ -17,6 +17,7 @@ from suspension_health_monitor.fleet.errors import FleetError
 
 CORRUPT = 3
 GOOD = 21
+ONE = ("--workers", 1)  # where no bag waits for another
 
 
 @pytest.fixture(scope="module")
@@ -104,35 +105,37 @@ def test_streams_that_are_closed_are_none_that_matter(bags, url, tmp_path):
 def test_a_bag_that_lies_there_twice_is_one(bag, url, tmp_path):
     for name in ("a", "b", "c"):
         fleet.copies(bag, tmp_path / name, 1)
-    assert "3 bags: 2 known, 1 ok" in fleet.succeed(tmp_path, "scan", ".", "--db", url)
+    assert "3 bags: 2 known, 1 ok" in fleet.succeed(tmp_path, "scan", ".", "--db", url, *ONE)
     assert fleet.statuses(url) == {"ok": 1}
 
 
 def test_a_database_that_is_lost_is_said_in_words(bag, url, tmp_path):
     fleet.copies(bag, tmp_path / "robot", 1)
-    fleet.succeed(tmp_path, "scan", "robot", "--db", url)
+    fleet.succeed(tmp_path, "scan", "robot", "--db", url, *ONE)
     with sqlite3.connect(tmp_path / "fleet.db") as connection:
         connection.execute("DROP TABLE struts")
-    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, "--again")
+    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, "--again", *ONE)
     assert (status, output) == (3, "") and "no such table: struts" in error and "Traceback" not in error
 
 
 def test_what_failed_may_not_fail_with_other_options(bag, url, tmp_path):
     fleet.copies(bag, tmp_path / "robot", 2)
-    assert "2 unreadable" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, "--sprung-topic", "/none")
-    assert "2 ok" in fleet.succeed(tmp_path, "scan", "robot", "--db", url)
+    assert "2 unreadable" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, *ONE, "--sprung-topic", "/none")
+    assert "2 ok" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, *ONE)
     assert "2 known" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, "--set", "memory=3")
-    assert "2 ok" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, "--set", "memory=3", "--again")
+    assert "2 ok" in fleet.succeed(tmp_path, "scan", "robot", "--db", url, "--set", "memory=3", "--again", *ONE)
     assert fleet.statuses(url) == {"ok": 2}
     fleet.require_whole(url)
 
 
-def test_wrong_options_end_it_and_write_nothing(bags, url, tmp_path):
+def test_wrong_options_end_it_and_write_nothing(bags, url, tmp_path, capsys):
     for arguments, status, words in (
-            (["--set", "no_option=1"], 2, "unknown option no_option"), (["--workers", "0"], 2, "--workers"),
+            (["--set", "no_option=1", *ONE], 2, "unknown option no_option"), (["--workers", "0"], 2, "--workers"),
             (["--vehicle-pattern", "robot"], 2, "has no group"), (["--config", "none.yaml"], 3, "none.yaml"),
             (["--pages", "pages"], 2, "--diagnose")):
-        found, output, error = fleet.run(tmp_path, "scan", bags / "robot_1/0.bag", "--db", url, *arguments)
+        command = ["scan", bags / "robot_1/0.bag", "--db", url, *arguments]
+        # What suspension_bag refuses, a worker is told.
+        found, output, error = fleet.run(tmp_path, *command) if "--set" in arguments else fleet.run_here(capsys, *command)
         assert (found, output) == (status, ""), error
         assert words in error and "Traceback" not in error
         assert not pathlib.Path(url[len("sqlite:///"):]).exists() or fleet.statuses(url) == {}
@@ -235,36 +238,37 @@ def test_a_bag_that_kills_its_process_takes_no_other(program, bags, url, tmp_pat
 def test_a_good_result_outlives_a_crash(program, bag, url, tmp_path, monkeypatch):
     monkeypatch.setenv("REAL", program.path)
     fleet.copies(bag, tmp_path / "robot", 2)
-    fleet.succeed(tmp_path, "scan", "robot", "--db", url)
+    fleet.succeed(tmp_path, "scan", "robot", "--db", url, *ONE)
     before = fleet.rows(url, "SELECT * FROM drives JOIN struts ON struts.drive_id = drives.id ORDER BY path")
     deadly = fleet.write_program(tmp_path / "deadly", "kill -9 $$")
-    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, "--again", program=deadly)
+    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, "--again", *ONE, program=deadly)
     assert (status, output.splitlines()[0]) == (0, "2 bags: 2 known"), error
     assert error.count("was ended by SIGKILL, as for want of memory; what is known of it stays\n") == 2
     assert before == fleet.rows(url, "SELECT * FROM drives JOIN struts ON struts.drive_id = drives.id ORDER BY path")
 
 
-def test_a_wrong_program_ends_it_and_writes_nothing(bag, url, tmp_path):
+def test_a_wrong_program_ends_it_and_writes_nothing(bag, url, tmp_path, capsys, monkeypatch):
     fleet.copies(bag, tmp_path / "robot", 1)
     for path in (tmp_path / "none", tmp_path, bag):
-        status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, program=path)
+        monkeypatch.setenv("SUSPENSION_BAG", str(path))
+        status, output, error = fleet.run_here(capsys, "scan", tmp_path / "robot", "--db", url)
         assert (status, output) == (3, "")
         assert error.startswith(f"suspension_fleet scan: SUSPENSION_BAG is {path}, must be the path of")
     (tmp_path / "script").write_text("#!/nowhere/sh\n")
     (tmp_path / "script").chmod(0o755)
-    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, program=tmp_path / "script")
+    status, output, error = fleet.run(tmp_path, "scan", "robot", "--db", url, *ONE, program=tmp_path / "script")
     assert (status, output) == (3, "") and "failed to execute" in error and "Traceback" not in error
     assert fleet.statuses(url) == {}
 
 
-def test_names_do_not_reach_the_terminal_as_controls(url, tmp_path):
+def test_names_do_not_reach_the_terminal_as_controls(url, tmp_path, capsys):
     folder = tmp_path / "ro\x1b[31mbot\n"
     folder.mkdir()
     (folder / "\x1b]0;title\x07.bag").touch()
-    status, output, error = fleet.run(tmp_path, "scan", folder, "--db", url)
+    status, output, error = fleet.run(tmp_path, "scan", folder, "--db", url, *ONE)
     assert (status, output.splitlines()[0]) == (0, "1 bags: 1 unread")
     assert error == f"{tmp_path}/ro\\x1b[31mbot\\n/\\x1b]0;title\\x07.bag: is empty\n"
-    status, _, error = fleet.run(tmp_path, "scan", folder / "none", "--db", url)
+    status, _, error = fleet.run_here(capsys, "scan", folder / "none", "--db", url)
     assert status == 3 and "ro\\x1b[31mbot\\n/none: no such file" in error
 
 

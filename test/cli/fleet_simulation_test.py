@@ -81,15 +81,16 @@ def test_a_seed_is_a_fleet():
     assert truth(1) == truth(1) != truth(2)
 
 
-def test_wrong_laws_are_refused(tmp_path):
+def test_wrong_laws_are_refused(tmp_path, capsys, monkeypatch):
     for laws, words in ((dict(bad=1.5), r"--bad 1.5, must lie in \[0, 1\]"), (dict(days=0), "--days 0"),
                         (dict(payload=float("nan")), "--payload nan"), (dict(least_wear=1.0), "--least-wear 1")):
         with pytest.raises(UsageError, match=words):
             Laws(**laws)
-    status, output, error = fleet.run(tmp_path, "simulate", "-o", "fleet", "--days", "0")
+    monkeypatch.chdir(tmp_path)
+    status, output, error = fleet.run_here(capsys, "simulate", "-o", "fleet", "--days", "0")
     assert (status, output) == (2, "") and error.startswith("suspension_fleet simulate: --days 0, must lie in")
     (tmp_path / "none.yaml").write_text("a: 1\n")
-    status, _, error = fleet.run(tmp_path, "simulate", "-o", "fleet", "--vehicle-model", "none.yaml")
+    status, _, error = fleet.run_here(capsys, "simulate", "-o", "fleet", "--vehicle-model", "none.yaml")
     assert status == 3 and "none.yaml" in error
     assert not (tmp_path / "fleet").exists()
 
@@ -122,9 +123,10 @@ def test_models_are_read_as_the_simulator_reads_them(program, tmp_path):
     assert drive["struts"]["on"]["damping_to_mass"] == pytest.approx(78 / 60)
 
 
-def test_a_folder_is_of_one_fleet(program, tmp_path):
+def test_a_folder_is_of_one_fleet(program, tmp_path, capsys, monkeypatch):
     def simulate(*arguments):
-        return fleet.run(tmp_path, "simulate", "-o", "fleet", *SHORT, *arguments)
+        return fleet.run_here(capsys, "simulate", "-o", "fleet", *SHORT, *arguments)
+    monkeypatch.chdir(tmp_path)
     assert simulate("--rate", "1e9")[0] == 3, "of which no bag is there"
     assert simulate("--seed", "1")[0] == 0
     before = conftest.snapshot(tmp_path)

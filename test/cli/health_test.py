@@ -386,7 +386,7 @@ def test_page_says_what_the_result_says(page):
         assert int(canvas.attributes["data-painted"]) > 0.01 * pixels, canvas.attributes["aria-label"]
 
 
-@pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))
+@pytest.mark.parametrize("width, dark", [(1400, False), (390, True)])  # colours move nothing
 def test_nothing_is_cut_off(page, width, dark):
     root = browser.measured(page.path, page.folder / "measured", width, dark).one("html").attributes
     assert (root["data-width"], root["data-dark"]) == (str(width), str(dark).lower())

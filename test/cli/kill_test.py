@@ -18,14 +18,14 @@ SEED = 4
 @pytest.fixture(scope="module")
 def long_bag(program, tmp_path_factory):
     path = tmp_path_factory.mktemp("kill") / "drive.bag"
-    program.succeed("simulate", "--scenario", "paper_clean", "--duration", "600", "-o", path)
+    program.succeed("simulate", "--scenario", "paper_clean", "--duration", "300", "-o", path)
     return path
 
 
 def commands(bag):
     """Arguments by name, and the names of the files that they write."""
     return {
-        "simulate": (["simulate", "--scenario", "paper_clean", "--duration", "600", "-o", "out.bag"], ["out.bag"]),
+        "simulate": (["simulate", "--scenario", "paper_clean", "--duration", "300", "-o", "out.bag"], ["out.bag"]),
         "identify": (["identify", bag, "--csv", "rows.csv", "--json", "result.json"], ["rows.csv", "result.json"]),
         "health": (["health", bag, "--csv", "rows.csv", "--json", "result.json"], ["rows.csv", "result.json"]),
         "compare": (["compare", bag, "--end", "60", "--json", "result.json"], ["result.json"]),

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100", "--set", "noise=0.03"]
+DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100", "--set", "noise=0.03", "--duration", "60"]
 LAWS = """
 effects:
   second_spring:

@@ -158,7 +158,7 @@ def test_struts_are_opened_and_lead_back(report):
         assert f"--strut {name}" in page.one(id="adding").text
 
 
-@pytest.mark.parametrize("width, dark", itertools.product([1400, 390], [False, True]))
+@pytest.mark.parametrize("width, dark", [(1400, False), (390, True)])  # colours move nothing
 def test_nothing_is_cut_off(report, width, dark):
     root = browser.measured(report.path, report.folder / "measured", width, dark).one("html").attributes
     assert (root["data-width"], root["data-dark"]) == (str(width), str(dark).lower())

@@ -147,6 +147,8 @@ def test_measured_period_that_no_setting_may_have(program, tmp_path):
 
 COMPRESSIONS = ("none", "bz2", "lz4")
 ORDERS = ("in pairs", "one topic after the other")
+# Without compression both orders, of which the second has chunks that overlap in time; with one, each once.
+LAYOUTS = [("none", ORDERS[0]), ("none", ORDERS[1]), ("bz2", ORDERS[0]), ("lz4", ORDERS[1])]
 
 
 def identify_damaged(program, path, content):
@@ -157,20 +159,18 @@ def identify_damaged(program, path, content):
     return result
 
 
-@pytest.mark.parametrize("order", ORDERS)
-@pytest.mark.parametrize("compression", COMPRESSIONS)
+@pytest.mark.parametrize("compression, order", LAYOUTS)
 def test_cut_off_anywhere(program, tmp_path, short_drive, compression, order):
     bag = imu_bag.write_bag(tmp_path / "whole.bag", short_drive, compression=compression, chunk_size=20000, order=order)
     whole = bag.read_bytes()
-    lengths = [*range(0, len(whole), 997), *range(len(whole) - 60, len(whole))]
+    lengths = [*range(0, len(whole), 1999), *range(len(whole) - 60, len(whole))]
     for length in lengths:
         result = identify_damaged(program, tmp_path / "cut.bag", whole[:length])
         assert result.returncode == 3, f"cut at {length} of {len(whole)} bytes"
     assert identify_damaged(program, tmp_path / "cut.bag", whole).returncode == 0
 
 
-@pytest.mark.parametrize("order", ORDERS)
-@pytest.mark.parametrize("compression", COMPRESSIONS)
+@pytest.mark.parametrize("compression, order", LAYOUTS)
 def test_flipped_bytes(program, tmp_path, short_drive, compression, order):
     """Compressed chunks have checksums: there the result is the right one or none. Others have only their structure."""
     bag = imu_bag.write_bag(tmp_path / "whole.bag", short_drive, compression=compression, chunk_size=20000, order=order)

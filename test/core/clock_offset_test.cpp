@@ -33,7 +33,7 @@ Drive lateBody(int quarters, int seed = 1) {
 }
 
 TEST(ClockOffset, OffsetsUpTo50MsAreNamedWithTheirValue) {
-  for (const int quarters : {-20, -12, -6, 6, 12, 20}) {
+  for (const int quarters : {-20, 6, 20}) {
     const double offset = quarters * kPeriod / kFiner;
     const Diagnosis found = diagnose({lateBody(quarters)});
     ASSERT_TRUE(found) << found.reason << ", offset " << offset;

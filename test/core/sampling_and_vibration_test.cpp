@@ -100,7 +100,7 @@ Said listen(const std::vector<double>& body, const std::vector<double>& wheel, d
 
 TEST(Sampling, OfFilteredReadingsIsNeverDoubted) {
   for (const char* road : {"A", "C", "E"})
-    for (const double speed : {3.0, 10.0, 20.0, 30.0}) {
+    for (const double speed : {3.0, 12.0, 30.0}) {
       SCOPED_TRACE(std::string(road) + " at " + std::to_string(speed));
       const Motion motion = goldenCar(road, speed, 60.0);
       const Said said = listen(decimated(motion.body, true), decimated(motion.wheel, true), kSampled);
@@ -146,7 +146,7 @@ TEST(Sampling, WithoutAFilterTheEstimateOverTheWholeDriveIsDoubtedOrRight) {
 TEST(Sampling, NoiseOfTheWheelsSensorAloneIsInTheInterval) {
   double samples = 0.0, beyond = 0.0;
   for (const char* road : {"A", "B", "C"})
-    for (const double speed : {8.0, 15.0, 25.0}) {
+    for (const double speed : {8.0, 25.0}) {
       SCOPED_TRACE(std::string(road) + " at " + std::to_string(speed));
       const Motion motion = goldenCar(road, speed, 120.0);
       const Said said = listen(decimated(motion.body, true), decimated(motion.wheel, true), kSampled, 0.0, 0.3);

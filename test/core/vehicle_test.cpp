@@ -136,14 +136,16 @@ TEST(DiagnosedVehicle, TakesNothingFromAGivenModelThatIsNoLongerTrue) {
 
 TEST(DiagnosedVehicle, IsSearchedFromTheModelsThatAreKnown) {
   Vehicle vehicle = namedVehicle("half_sedan");
-  const EffectLibrary library = builtInEffects();
-  vehicle.struts[0].hidden = {{findEffect(library.forces, "quadratic_damping"), 2.0, {}}};
+  const ForceEffect law = findEffect(builtInEffects().forces, "quadratic_damping");
+  vehicle.struts[0].hidden = {{law, 2.0, {}}};
   const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(120.0))};
-  const VehicleDiagnosis first = diagnoseVehicle(drives, strutNames(vehicle));
+  DiagnoseOptions options;
+  options.candidates = {{law, findEffect(builtInEffects().forces, "asymmetric_damping")}, {}};
+  const VehicleDiagnosis first = diagnoseVehicle(drives, strutNames(vehicle), {options});
   ASSERT_TRUE(first) << first.coupling.reason;
   ASSERT_EQ(first.struts[0].selected, std::vector<std::string>{"quadratic_damping"}) << first.summary;
   const VehicleDiagnosis again =
-      diagnoseVehicle(drives, strutNames(vehicle), {}, {first.struts[0].model(), std::nullopt});
+      diagnoseVehicle(drives, strutNames(vehicle), {options}, {first.struts[0].model(), std::nullopt});
   EXPECT_TRUE(again.struts[0].selected.empty()) << again.summary;
   EXPECT_EQ(again.struts[0].base.model.effects.size(), 1U);
   EXPECT_TRUE(again.struts[1].base.model.effects.empty());
@@ -154,12 +156,14 @@ TEST(DiagnosedVehicle, HasTheDrivesThatItsStrutsWereJudgedBy) {
   const Vehicle vehicle = namedVehicle("half_sedan");
   const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(60.0)),
                                          strutDrives(vehicle, vehicleDrive(30.0))};
-  const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle));
+  DiagnoseOptions options;
+  options.candidates = {{findEffect(builtInEffects().forces, "quadratic_damping")}, {}};  // what is judged is the base
+  const VehicleDiagnosis found = diagnoseVehicle(drives, strutNames(vehicle), {options});
   ASSERT_TRUE(found) << found.coupling.reason;
   ASSERT_EQ(found.drives.size(), 2U);
   for (std::size_t i = 0; i < found.drives.size(); ++i) {
     ASSERT_EQ(found.drives[i].size(), drives.size());
-    const Diagnosis alone = diagnose(found.drives[i]);
+    const Diagnosis alone = diagnose(found.drives[i], options);
     EXPECT_DOUBLE_EQ(alone.base.held_out_rmse, found.struts[i].base.held_out_rmse) << i;
   }
 }

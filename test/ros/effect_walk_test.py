@@ -15,7 +15,7 @@ from suspension_health_monitor.srv import Diagnose, SetEffects
 
 EFFECT, COEFFICIENT = "bump_stop", "47,g=0.013"
 DRIVE = ["--scenario", "iso_road", "--vehicle", "ugv", "--rate", "100", "--set", "noise=0.03", "--seed", "5",
-         "--duration", "300", "--effect", f"{EFFECT}={COEFFICIENT}"]
+         "--duration", "230", "--effect", f"{EFFECT}={COEFFICIENT}"]
 RATE = 8  # bag seconds per wall second
 SEARCH_AT = 80.0  # [s] of the bag
 # A memory of 10 s at 100 Hz, so that the estimates add little to the error, and a window that scatters by
