@@ -134,7 +134,7 @@ def test_wrong_options_end_it_and_write_nothing(bags, url, tmp_path, capsys):
             (["--vehicle-pattern", "robot"], 2, "has no group"), (["--config", "none.yaml"], 3, "none.yaml"),
             (["--pages", "pages"], 2, "--diagnose")):
         command = ["scan", bags / "robot_1/0.bag", "--db", url, *arguments]
-        # What suspension_bag refuses, a worker is told.
+        # suspension_bag refuses a wrong --set; it runs in a worker, so this case needs a cluster.
         found, output, error = fleet.run(tmp_path, *command) if "--set" in arguments else fleet.run_here(capsys, *command)
         assert (found, output) == (status, ""), error
         assert words in error and "Traceback" not in error

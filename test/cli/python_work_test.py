@@ -17,7 +17,7 @@ def drive():
 
 @pytest.fixture(scope="module")
 def bag(tmp_path_factory):
-    """Half a minute: what is told while it is worked on is the same for any drive."""
+    """A drive of half a minute: progress, interruption and threads do not depend on its length."""
     path = tmp_path_factory.mktemp("python") / "drive.bag"
     shm.simulate(path, effect=HIDDEN, duration=30.0, **ROUGH)
     return path

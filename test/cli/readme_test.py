@@ -118,7 +118,7 @@ def test_five_commands(terminal, blocks):
 
 
 def test_on_the_robot(terminal, blocks):
-    """Beside its monitor, as it was started; who is told to drive on asks again."""
+    """The service calls run beside a running monitor. A call that answers "drive on" is repeated."""
     with driving(terminal, ROBOT), terminal.start(blocks[1][-1], "on_the_robot.txt"):
         terminal.run("timeout 120 rostopic echo -n 1 /monitor/estimate")
         for command in blocks[4]:

@@ -1,4 +1,4 @@
-"""A signal that asks a command to end: it says so, and nothing is left of the files that it was writing."""
+"""A signal ends a command: it prints one sentence and removes its unfinished files."""
 import os
 import signal
 import subprocess

@@ -163,7 +163,7 @@ def identify_damaged(program, path, content):
 def test_cut_off_anywhere(program, tmp_path, short_drive, compression, order):
     bag = imu_bag.write_bag(tmp_path / "whole.bag", short_drive, compression=compression, chunk_size=20000, order=order)
     whole = bag.read_bytes()
-    lengths = [*range(0, len(whole), 1999), *range(len(whole) - 60, len(whole))]
+    lengths = [*range(0, len(whole), 997), *range(len(whole) - 60, len(whole))]
     for length in lengths:
         result = identify_damaged(program, tmp_path / "cut.bag", whole[:length])
         assert result.returncode == 3, f"cut at {length} of {len(whole)} bytes"

@@ -15,14 +15,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-TEST(BandNoise, IsTheSameStepByStepAndAtOnce) {
-  const BandNoise asked(1, 0.0, 200.0, 1.0);
-  const double step = 1.0 / 24400.0;
-  for (int k = 0; k <= 100000; ++k) asked(k * step);
-  for (const double t : {100000 * step, 3.0, 3.0 + step, 3.0 + 2.0 * step, 1.0})
-    EXPECT_NEAR(asked(t), BandNoise(1, 0.0, 200.0, 1.0)(t), 1e-9) << t;
-}
-
 // An oscillator with a cubic spring, in the units of an electronic one: 68 Hz, sampled at 610 Hz, shaken up to 200 Hz.
 DrivenMass duffing(int seed) {
   const double omega = 2.0 * M_PI * 68.0, b1 = 0.2 * omega, b0 = omega * omega;
@@ -31,15 +23,17 @@ DrivenMass duffing(int seed) {
 }
 
 TEST(BandLimitedRecords, ACubicSpringWithoutAnyNoiseIsFoundAlone) {
-  const Diagnosis found = diagnose({duffing(2).drive(4000)});
-  ASSERT_TRUE(found) << found.reason;
-  EXPECT_EQ(found.verdict, Verdict::kEffectFound);
-  EXPECT_EQ(found.selected, Names{"progressive_spring"});
-  EXPECT_TRUE(found.indistinguishable.empty());
-  EXPECT_LT(20.0 * found.extended->held_out_rmse, found.base.held_out_rmse);
-  const ActiveEffect& spring = found.model().effects.at(0);
-  EXPECT_NEAR(spring.shapes.at(0), 3.0, 0.03);
-  EXPECT_NEAR(spring.coefficient / (0.15 * std::pow(2.0 * M_PI * 68.0, 2)), 1.0, 0.05);
+  for (int seed = 1; seed <= 3; ++seed) {
+    const Diagnosis found = diagnose({duffing(seed).drive(4000)});
+    ASSERT_TRUE(found) << found.reason;
+    EXPECT_EQ(found.verdict, Verdict::kEffectFound);
+    EXPECT_EQ(found.selected, Names{"progressive_spring"});
+    EXPECT_TRUE(found.indistinguishable.empty());
+    EXPECT_LT(20.0 * found.extended->held_out_rmse, found.base.held_out_rmse);
+    const ActiveEffect& spring = found.model().effects.at(0);
+    EXPECT_NEAR(spring.shapes.at(0), 3.0, 0.03);
+    EXPECT_NEAR(spring.coefficient / (0.15 * std::pow(2.0 * M_PI * 68.0, 2)), 1.0, 0.05);
+  }
 }
 
 DrivenMass linearStrut(double noise_in_band) {
@@ -80,19 +74,22 @@ TEST(BandLimitedRecords, NothingIsNamedThatTheFreeRunCannotResolve) {
 
 // 2 kg, 10 N s/m, 5e4 N/m beside z' = 5e4 v - 800 |v| z + 1100 v |z|.
 TEST(TextbookLaws, BoucWenHysteresisIsNamedAlone) {
-  const DrivenMass oscillator{
-      750.0, BandNoise(1, 5.0, 150.0, 30.0),
-      [](const MassState& x, double) { return (10.0 * x.v + 5e4 * x.d + x.s) / 2.0; },
-      [](const MassState& x) { return 5e4 * x.v - 800.0 * std::abs(x.v) * x.s + 1100.0 * x.v * std::abs(x.s); }, 0.01};
-  const Diagnosis found = diagnose({oscillator.drive(8000, 1)});
-  ASSERT_TRUE(found) << found.reason;
-  EXPECT_EQ(found.verdict, Verdict::kEffectFound);
-  EXPECT_EQ(found.selected, Names{"bouc_wen"});
-  EXPECT_LT(20.0 * found.extended->held_out_rmse, found.base.held_out_rmse);
-  const ActiveEffect& law = found.model().effects.at(0);
-  EXPECT_NEAR(law.coefficient, 2.5e4, 750.0);
-  EXPECT_NEAR(law.shapes.at(0), 1.0 / 800.0, 4e-5);
-  EXPECT_NEAR(law.shapes.at(1), 1.0 / 1100.0, 4e-5);
+  for (int seed = 1; seed <= 2; ++seed) {
+    const DrivenMass oscillator{
+        750.0, BandNoise(seed, 5.0, 150.0, 30.0),
+        [](const MassState& x, double) { return (10.0 * x.v + 5e4 * x.d + x.s) / 2.0; },
+        [](const MassState& x) { return 5e4 * x.v - 800.0 * std::abs(x.v) * x.s + 1100.0 * x.v * std::abs(x.s); },
+        0.01};
+    const Diagnosis found = diagnose({oscillator.drive(8000, seed)});
+    ASSERT_TRUE(found) << found.reason;
+    EXPECT_EQ(found.verdict, Verdict::kEffectFound);
+    EXPECT_EQ(found.selected, Names{"bouc_wen"});
+    EXPECT_LT(20.0 * found.extended->held_out_rmse, found.base.held_out_rmse);
+    const ActiveEffect& law = found.model().effects.at(0);
+    EXPECT_NEAR(law.coefficient, 2.5e4, 750.0);
+    EXPECT_NEAR(law.shapes.at(0), 1.0 / 800.0, 4e-5);
+    EXPECT_NEAR(law.shapes.at(1), 1.0 / 1100.0, 4e-5);
+  }
 }
 
 // A spring and mount in series would do the same without the strut's own spring; that carries the body.

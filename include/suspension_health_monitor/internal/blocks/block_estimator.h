@@ -43,7 +43,7 @@ class DriveFit {
 
     Sums operator-(const Sums& other) const;
   };
-  /// Even. Where one more comes every other one is dropped: so 8 to 16 are left of a long drive.
+  /// An even number. When the list is full, every second instant is dropped: a long drive keeps 8 to 16.
   static constexpr std::size_t kMostInstants = 16;
 
   std::optional<WindowEstimate> estimate(const Sums& sums, const BlockPrior& prior) const;
