@@ -112,7 +112,6 @@ TEST(StreamClock, KnowsByHalfAMinuteOfFastMotionWhenReadingsWereTaken) {
   }
 }
 
-// Of two or more that are lost in a row, which messages that wait may look like, one reading is put too early.
 TEST(StreamClock, CountsLostReadingsBetweenIrregularStamps) {
   for (const double stamped : {0.0, 0.05, 0.1, 0.2})
     for (const double lost : {0.002, 0.01, 0.05})
@@ -120,6 +119,19 @@ TEST(StreamClock, CountsLostReadingsBetweenIrregularStamps) {
         SCOPED_TRACE(std::to_string(stamped) + ", " + std::to_string(lost) + ", " + std::to_string(seed));
         EXPECT_LT(run({0.0, byChance(stamped), lost}, seed).off, 0.05 + 4.0 * lost);
       }
+}
+
+TEST(StreamClock, KnowsWhenTheReadingAfterSeveralLostOnesWasTaken) {
+  for (int lost : {1, 2, 3, 4}) {
+    StreamClock clock;
+    for (int k = 1; k <= 3000; ++k) {
+      const int place = k % 50;
+      // Also beside another loss.
+      if (k > 1000 && (place < lost || place == lost + 1)) continue;
+      const double taken = kPeriod * k;
+      EXPECT_NEAR(toSeconds(clock.add(fromSeconds(taken), signal(taken))), taken, 0.01 * kPeriod) << lost << ' ' << k;
+    }
+  }
 }
 
 TEST(StreamClock, IsNotMovedByMessagesThatWaited) {

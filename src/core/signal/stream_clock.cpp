@@ -47,7 +47,9 @@ Stamp StreamClock::add(Stamp stamp, double value) {
     follow(now);
     const double off = (now - time_) / period_;
     sampling_.add(value, off);
-    if (sampling_.isRegular() || (messages_wait_ && !sampling_.isAsStamped() && std::abs(off) > kSignalTuning.near)) {
+    // Far off is what comes after several lost readings, or what waited.
+    const bool is_far = std::abs(off) > kSignalTuning.near;
+    if (is_far ? messages_wait_ && !sampling_.isAsStamped() : sampling_.isRegular()) {
       taken = *origin_ + fromSeconds(time_);
       apart = fromSeconds(0.5 * period_);  // one that was counted too far before: a curve through the readings holds
     }
@@ -118,7 +120,8 @@ int StreamClock::periodsSinceLast(double stamp) {
   const double most =
       (std::abs(whole) > 1.0 || whole_before_ != 0.0) ? kSignalTuning.of_one_stamp * kConvincing : kConvincing;
   evidence_ = std::max(0.0, evidence_ + std::min(ratio, most));
-  if (std::abs(whole_before_) > 1.0 && whole != whole_before_) messages_wait_ = true;
+  // What waited is followed by what is less late; more is lost readings.
+  if (std::abs(whole_before_) > 1.0 && std::abs(whole) < std::abs(whole_before_)) messages_wait_ = true;
   whole_before_ = whole;
   const bool is_pause = std::abs(whole) > kSignalTuning.longest_batch;
   if (!is_pause && evidence_ < kConvincing) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
@@ -106,9 +107,17 @@ Taps makeTaps() {
   return taps / taps.sum();
 }
 
+// @return the readings that were lost between two; 0 before it is known how far apart readings usually are.
+long numLost(const SensorReading& before, const SensorReading& after) {
+  if (!(after.usual_spacing > 0.0)) return 0;
+  return std::max(0L, std::lround(toSeconds(after.taken - before.taken) / after.usual_spacing) - 1);
+}
+
 }  // namespace
 
-StreamResampler::StreamResampler(Stamp period) : period_(period), reach_(kHalfWidth * period) {}
+StreamResampler::StreamResampler(Stamp period) : period_(period), reach_(kHalfWidth * period) {
+  after_loss_.reserve(LostReadings::kWindow);
+}
 
 void StreamResampler::clear() {
   origin_.reset();
@@ -124,7 +133,7 @@ std::optional<Stamp> StreamResampler::earliest(const ReadingQueue& waiting) cons
 StreamResampler::Coverage StreamResampler::advance(Stamp t, ReadingQueue& waiting) {
   if (!origin_) origin_ = t;
   while (!first_ || last_.taken < t + reach_) {
-    if (waiting.empty()) return Coverage::kComes;
+    if (waiting.empty() || !fillIn(waiting)) return Coverage::kComes;
     const SensorReading reading = waiting.front();
     waiting.pop_front();
     const bool interrupted = first_ && followsAfterGap(reading);
@@ -141,7 +150,33 @@ bool StreamResampler::followsAfterGap(const SensorReading& reading) const {
   return toSeconds(reading.taken - last_.taken) > kSignalTuning.longest_bridge * usual;
 }
 
+// Predicts what was lost before the next reading. @return false: readings by which it is predicted are to come.
+bool StreamResampler::fillIn(const ReadingQueue& waiting) {
+  if (!first_ || !lost_readings_.isReady() || followsAfterGap(waiting.front())) return true;
+  const long lost = numLost(last_, waiting.front());
+  if (lost == 0 || lost > LostReadings::kMost) return true;
+  after_loss_.clear();
+  const SensorReading* before = &last_;
+  for (long place = 0;; before = &waiting[after_loss_.size() - 1]) {
+    if (after_loss_.size() == waiting.size()) return false;
+    const SensorReading& next = waiting[after_loss_.size()];
+    place += 1 + numLost(*before, next);
+    if (place > LostReadings::kWindow - LostReadings::kReach) break;
+    after_loss_.push_back({static_cast<int>(place), next.value - reference_});
+  }
+  SensorReading filled = last_;
+  const Stamp spacing = (waiting.front().taken - last_.taken) / (lost + 1);
+  for (const double value : lost_readings_.predict(static_cast<int>(lost), after_loss_)) {
+    filled.taken += spacing;
+    filled.value = reference_ + value;
+    take(filled);
+    ++bridged_;
+  }
+  return true;
+}
+
 void StreamResampler::begin(const SensorReading& reading) {
+  lost_readings_.startNewSeries();
   first_ = reading.taken;
   last_ = reading;
   reference_ = reading.value;
@@ -150,13 +185,15 @@ void StreamResampler::begin(const SensorReading& reading) {
 }
 
 void StreamResampler::take(const SensorReading& reading) {
-  const double spacing = toSeconds(reading.taken - last_.taken);
-  if (reading.usual_spacing > 0.0 && spacing >= 1.5 * reading.usual_spacing)
-    bridged_ += static_cast<std::uint64_t>(std::round(spacing / reading.usual_spacing)) - 1;
+  bridged_ += static_cast<std::uint64_t>(numLost(last_, reading));
+  // Where readings are taken irregularly the spline knows more: it goes by their times.
+  const double spacing = toSeconds(reading.taken - last_.taken), usual = reading.usual_spacing;
+  if (!(std::abs(spacing - usual) <= kSmall * usual)) lost_readings_.startNewSeries();
   const double position =
       2.0 * static_cast<double>((reading.taken - *origin_).count()) / static_cast<double>(period_.count());
   for (; static_cast<double>(next_knot_) < position; ++next_knot_) stillAt(next_knot_) = last_.still;
   spline_.add(position, reading.value - reference_);
+  lost_readings_.add(reading.value - reference_);
   last_ = reading;
 }
 

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/signal/lost_readings.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
@@ -76,7 +78,8 @@ class SmoothingSpline {
 /// A constant passes exactly.
 ///
 /// A pause of up to kSignalTuning.longest_bridge periods (the grid's or the stream's own, whichever is longer) is
-/// bridged. Cost: O(1) per reading and per value, no allocation.
+/// bridged: by LostReadings, after which the next readings are waited for, or else by the spline. Cost: O(1) per
+/// reading and per value, no allocation.
 class StreamResampler {
  public:
   static constexpr int kHalfWidth = 8;  ///< [T]; so late is a value
@@ -114,6 +117,7 @@ class StreamResampler {
 
  private:
   bool followsAfterGap(const SensorReading& reading) const;
+  bool fillIn(const ReadingQueue& waiting);
   void begin(const SensorReading& reading);
   void take(const SensorReading& reading);
   bool& stillAt(std::int64_t knot) { return still_[knot & (SmoothingSpline::kKept - 1)]; }
@@ -123,6 +127,8 @@ class StreamResampler {
   std::optional<Stamp> first_;   // reading of the series
   SensorReading last_;
   double reference_ = 0.0;  // taken off all readings: a constant then passes without any rounding
+  LostReadings lost_readings_;
+  std::vector<LostReadings::Known> after_loss_;
   SmoothingSpline spline_;
   std::array<bool, SmoothingSpline::kKept> still_{};  // of the newest reading up to a knot
   std::int64_t next_knot_ = 0;                        // after the last reading
