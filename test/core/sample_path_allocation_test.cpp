@@ -95,6 +95,23 @@ TEST(SamplePath, AllocatesNothingInTheBlocksOfAStrutOnceTheyKnowIt) {
   EXPECT_GT(estimates, 100);
 }
 
+TEST(SamplePath, AllocatesNothingWhereReadingsAreLost) {
+  UniformGrid grid(0.01, {Alignment::kResampled});
+  long before = 0;
+  int samples = 0;
+  for (int k = 1; k < 3000; ++k) {
+    if (k == 1000) before = num_allocations;
+    const Stamp stamp = k * std::chrono::milliseconds(10);
+    const double reading = 9.81 + std::sin(0.8 * k) + std::sin(0.1 * k * k);
+    if (grid.push(Side::kUnsprung, stamp, 3.0 * reading)) ++samples;
+    if ((k < 1000 || k % 40 > 1) && grid.push(Side::kSprung, stamp, reading)) ++samples;
+    while (grid.next()) ++samples;
+  }
+  EXPECT_EQ(num_allocations, before);
+  EXPECT_EQ(grid.streams().bridged(), 100u);
+  EXPECT_GT(samples, 2900);
+}
+
 TEST(SamplePath, AllocatesNothingInGridAndMonitorWhateverTheInput) {
   MonitorSettings options;
   options.sample_period = 0.02;

@@ -9,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
@@ -91,9 +92,11 @@ std::vector<Instant> feed(StreamGrid& grid, const std::vector<Message>& messages
 }
 
 TEST_F(StreamGridTest, DoesNotDependOnTheOrderInWhichTheStreamsInterleave) {
-  for (const Alignment alignment : {Alignment::kPaired, Alignment::kAuto, Alignment::kResampled}) {
+  for (const auto& [alignment, jitter] :
+       {std::pair(Alignment::kPaired, 0.003), std::pair(Alignment::kAuto, 0.003),
+        std::pair(Alignment::kResampled, 0.003), std::pair(Alignment::kResampled, 0.0)}) {
     Streams streams;
-    for (std::size_t i = 0; i < 5; ++i) streams.push_back(readings(i, 10.0, {0.003, 0.05, i == 3 ? 0.003 : 0.0}));
+    for (std::size_t i = 0; i < 5; ++i) streams.push_back(readings(i, 10.0, {jitter, 0.05, i == 3 ? 0.003 : 0.0}));
     StreamGrid in_time(kPeriod, sensors(5), alignment, kFill);
     const std::vector<Instant> expected = feed(in_time, interleaved(streams, 0.0));
     EXPECT_GT(expected.size(), 500u);
@@ -196,6 +199,20 @@ TEST_F(StreamGridTest, TellsWhichSensorIsSilentAndWhichReadsNonsense) {
   EXPECT_EQ(grid.missed(2), 200u);
   EXPECT_EQ(grid.rejected(2).byName(), (std::map<std::string, std::uint64_t>{{"not_finite", 2098u}}));
   EXPECT_EQ(grid.rejected(1).byName(), (std::map<std::string, std::uint64_t>{{"missing_partner", 100u}}));
+}
+
+TEST_F(StreamGridTest, TellsWhichSensorIsSilentAfterALoss) {
+  StreamGrid grid(kPeriod, sensors(2), Alignment::kResampled, kFill);
+  constexpr int kLast = 1000;  // reading of the second sensor, a few after one is lost
+  for (int k = 0; k < kLast + static_cast<int>(kMostWaiting) + 100; ++k) {
+    const Stamp stamp = k * fromSeconds(kPeriod) + Stamp(1);
+    grid.push(0, stamp, signal(0, toSeconds(stamp)));
+    while (grid.next() != nullptr) {
+    }
+    if (k <= kLast && k != kLast - 5) grid.push(1, stamp, signal(1, toSeconds(stamp)));
+  }
+  EXPECT_EQ(grid.missed(0), 0u);
+  EXPECT_GT(grid.missed(1), 0u);
 }
 
 // A body's IMU whose gyro reads 0 about an axis, and a wheel.

@@ -47,10 +47,10 @@ Stamp StreamClock::add(Stamp stamp, double value) {
     follow(now);
     const double off = (now - time_) / period_;
     sampling_.add(value, off);
-    // Far off is what comes after several lost readings, or what waited.
-    const bool is_far = std::abs(off) > kSignalTuning.near;
-    if (is_far ? messages_wait_ && !sampling_.isAsStamped() : sampling_.isRegular()) {
-      taken = *origin_ + fromSeconds(time_);
+    // A reading that is off by periods follows several lost ones, unless its message waited.
+    const bool is_far = std::abs(off) > kSignalTuning.near, waited = is_far && waits_ > 0;
+    if (sampling_.isRegular() || (waited && !sampling_.isAsStamped())) {
+      taken = *origin_ + fromSeconds(time_ + (is_far && !waited ? std::round(off) * period_ : 0.0));
       apart = fromSeconds(0.5 * period_);  // one that was counted too far before: a curve through the readings holds
     }
   }
@@ -120,8 +120,9 @@ int StreamClock::periodsSinceLast(double stamp) {
   const double most =
       (std::abs(whole) > 1.0 || whole_before_ != 0.0) ? kSignalTuning.of_one_stamp * kConvincing : kConvincing;
   evidence_ = std::max(0.0, evidence_ + std::min(ratio, most));
-  // What waited is followed by what is less late; more is lost readings.
-  if (std::abs(whole_before_) > 1.0 && std::abs(whole) < std::abs(whole_before_)) messages_wait_ = true;
+  // After a message that waited the next is less late; after lost readings it is as late, or later.
+  const bool is_less_late = whole < whole_before_ && std::max(std::abs(whole), std::abs(whole_before_)) > 1.0;
+  if (is_less_late) waits_ = kSignalTuning.miscount;
   whole_before_ = whole;
   const bool is_pause = std::abs(whole) > kSignalTuning.longest_batch;
   if (!is_pause && evidence_ < kConvincing) {
@@ -130,7 +131,7 @@ int StreamClock::periodsSinceLast(double stamp) {
   }
   out_of_step_ += kSignalTuning.miscount;
   if (!is_pause) lost_ += static_cast<std::int64_t>(miscount_);
-  messages_wait_ = messages_wait_ && std::abs(miscount_) == 1.0;
+  if (!is_pause && std::abs(miscount_) > 1.0) waits_ = std::max(0, waits_ - 1);
   sampling_.interrupt();
   evidence_ = whole_before_ = 0.0;
   return 1 + static_cast<int>(std::clamp(whole, -1e9, 1e9));

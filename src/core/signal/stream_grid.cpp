@@ -138,8 +138,10 @@ const GridInstant* StreamGrid::next() {
 // Its readings have waited in vain for those of a sensor that is silent.
 void StreamGrid::dropOldest(GridStream& full) {
   full.drop();
-  for (GridStream& each : streams_)
-    if (each.options.required && each.waiting.empty()) ++each.missed;
+  for (GridStream& each : streams_) {
+    const bool is_silent = each.waiting.empty() || each.waiting.back().stamp < full.waiting.front().stamp;
+    if (each.options.required && is_silent) ++each.missed;
+  }
 }
 
 // @param first  the stream whose clock went back before those of the others.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/signal/grid_streams.h"
 #include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
@@ -107,17 +108,23 @@ Taps makeTaps() {
   return taps / taps.sum();
 }
 
-// @return the readings that were lost between two; 0 before it is known how far apart readings usually are.
-long numLost(const SensorReading& before, const SensorReading& after) {
+// @return readings that were lost between two; 0 before it is known how far apart readings usually are.
+std::uint64_t numLost(const SensorReading& before, const SensorReading& after) {
   if (!(after.usual_spacing > 0.0)) return 0;
-  return std::max(0L, std::lround(toSeconds(after.taken - before.taken) / after.usual_spacing) - 1);
+  return std::max(1L, std::lround(toSeconds(after.taken - before.taken) / after.usual_spacing)) - 1;
+}
+
+// @return whole periods from one reading to the next; 0 if they are not whole, or the period is not known yet.
+long periodsBetween(const SensorReading& before, const SensorReading& after) {
+  if (!(after.usual_spacing > 0.0)) return 0;
+  const double periods = toSeconds(after.taken - before.taken) / after.usual_spacing;
+  return std::abs(periods - std::round(periods)) <= kSmall ? std::lround(periods) : 0;
 }
 
 }  // namespace
 
-StreamResampler::StreamResampler(Stamp period) : period_(period), reach_(kHalfWidth * period) {
-  after_loss_.reserve(LostReadings::kWindow);
-}
+StreamResampler::StreamResampler(Stamp period)
+    : period_(period), reach_(kHalfWidth * period), after_loss_(LostReadings::kWindow) {}
 
 void StreamResampler::clear() {
   origin_.reset();
@@ -152,23 +159,28 @@ bool StreamResampler::followsAfterGap(const SensorReading& reading) const {
 
 // Predicts what was lost before the next reading. @return false: readings by which it is predicted are to come.
 bool StreamResampler::fillIn(const ReadingQueue& waiting) {
-  if (!first_ || !lost_readings_.isReady() || followsAfterGap(waiting.front())) return true;
-  const long lost = numLost(last_, waiting.front());
-  if (lost == 0 || lost > LostReadings::kMost) return true;
+  const long farthest = LostReadings::kWindow - LostReadings::kReach;  // periods after the last reading
+  // Of a slower stream the readings after the loss would come too late for those that wait for it.
+  const bool is_slow = static_cast<double>(farthest) * waiting.front().usual_spacing > toSeconds(kMostOptionalLag);
+  if (!first_ || is_slow || !lost_readings_.isReady()) return true;
+  const long periods = periodsBetween(last_, waiting.front());
+  if (periods < 2 || periods > LostReadings::kMost + 1) return true;
   after_loss_.clear();
   const SensorReading* before = &last_;
-  for (long place = 0;; before = &waiting[after_loss_.size() - 1]) {
+  for (long place = 0; place < farthest;) {
     if (after_loss_.size() == waiting.size()) return false;
     const SensorReading& next = waiting[after_loss_.size()];
-    place += 1 + numLost(*before, next);
-    if (place > LostReadings::kWindow - LostReadings::kReach) break;
-    after_loss_.push_back({static_cast<int>(place), next.value - reference_});
+    const long since = periodsBetween(*before, next);
+    place += since;
+    if (since == 0 || place > farthest) break;
+    after_loss_.push_back({static_cast<int>(place), next.value});
+    before = &next;
   }
   SensorReading filled = last_;
-  const Stamp spacing = (waiting.front().taken - last_.taken) / (lost + 1);
-  for (const double value : lost_readings_.predict(static_cast<int>(lost), after_loss_)) {
+  const Stamp spacing = (waiting.front().taken - last_.taken) / periods;
+  for (const double value : lost_readings_.predict(static_cast<int>(periods) - 1, after_loss_)) {
     filled.taken += spacing;
-    filled.value = reference_ + value;
+    filled.value = value;
     take(filled);
     ++bridged_;
   }
@@ -176,7 +188,6 @@ bool StreamResampler::fillIn(const ReadingQueue& waiting) {
 }
 
 void StreamResampler::begin(const SensorReading& reading) {
-  lost_readings_.startNewSeries();
   first_ = reading.taken;
   last_ = reading;
   reference_ = reading.value;
@@ -185,15 +196,13 @@ void StreamResampler::begin(const SensorReading& reading) {
 }
 
 void StreamResampler::take(const SensorReading& reading) {
-  bridged_ += static_cast<std::uint64_t>(numLost(last_, reading));
-  // Where readings are taken irregularly the spline knows more: it goes by their times.
-  const double spacing = toSeconds(reading.taken - last_.taken), usual = reading.usual_spacing;
-  if (!(std::abs(spacing - usual) <= kSmall * usual)) lost_readings_.startNewSeries();
+  bridged_ += numLost(last_, reading);
+  if (periodsBetween(last_, reading) != 1) lost_readings_.startNewSeries();
   const double position =
       2.0 * static_cast<double>((reading.taken - *origin_).count()) / static_cast<double>(period_.count());
   for (; static_cast<double>(next_knot_) < position; ++next_knot_) stillAt(next_knot_) = last_.still;
   spline_.add(position, reading.value - reference_);
-  lost_readings_.add(reading.value - reference_);
+  lost_readings_.add(reading.value);
   last_ = reading;
 }
 

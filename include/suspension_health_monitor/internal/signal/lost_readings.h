@@ -1,13 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
+
+#include "suspension_health_monitor/internal/math/running_means.h"
+#include "suspension_health_monitor/internal/signal/stream_clock.h"
 
 namespace suspension_health_monitor {
 
-/// Predicts readings that were lost from those around them, as the least-squares line does that fits the stream so far:
+/// Predicts readings that were lost from those around them, by the linear least squares that fit the stream so far:
 /// with G the sum of v v' over windows v of successive readings, which forgets as StreamClock does, the weights of the
-/// known readings are G_known^-1 G_(known, lost). Where the stream is regular this misses the motion of a wheel by
+/// known readings are G_known^-1 G_(known, lost). Readings are equally spaced. The motion of a wheel is missed by
 /// little more than noise; a polynomial misses it by the more the fewer readings there are in a period. Source: N.
 /// Wiener, Extrapolation, interpolation and smoothing of stationary time series (1949), with sample moments. Cost:
 /// O(kWindow^2) per reading, O(kWindow^3) per loss, no allocation.
@@ -19,34 +23,34 @@ class LostReadings {
 
   /// A reading that is known after a loss.
   struct Known {
-    int place;     ///< readings since the newest one, the lost ones included, up to kWindow - kReach
-    double value;  ///< as add() takes it
+    int place;  ///< readings since the newest one, the lost ones included
+    double value;
   };
 
   /// Forgets the newest readings, but not what the stream is like: the next one does not follow them.
   void startNewSeries() { in_a_row_ = 0; }
 
   /// Takes in the next reading, or what was predicted in its place.
-  /// @param value  less a constant that is the same for all.
   void add(double value);
 
-  /// @return true if enough is known of the stream to predict from kReach readings before the loss.
-  bool isReady() const { return windows_ >= kFewestWindows && in_a_row_ >= kReach; }
+  /// @return true if enough is known of the stream, and kReach readings before the loss are. With twice as many windows
+  /// as weights the variance of the error is twice that of the best weights.
+  bool isReady() const { return windows_ >= 2 * kWindow && in_a_row_ >= kReach; }
 
   /// @param lost  how many follow the newest reading, in [1, kMost].
-  /// @param after  readings that are known after these.
-  /// @return one value per lost reading, valid until the next call; empty if they cannot be told.  @pre isReady()
+  /// @param after  readings after these, with places in [lost + 1, kWindow - kReach].
+  /// @return one value per lost reading, valid until the next call; empty if they cannot be predicted: the stream does
+  /// not change.  @pre isReady()
   const std::vector<double>& predict(int lost, const std::vector<Known>& after);
 
  private:
-  // From twice as many windows as weights the line leaves twice the variance that the best one does.
-  static constexpr double kFewestWindows = 2.0 * kWindow;
-
   using Window = Eigen::Matrix<double, kWindow, 1>;
+  std::optional<double> first_;     // reading of all: taken off, since the weights of a constant would have to be known
   Window newest_ = Window::Zero();  // the oldest first
+  int in_a_row_ = 0;                // of the newest readings, up to kWindow
+  int windows_ = 0;                 // up to 2 kWindow
   Eigen::Matrix<double, kWindow, kWindow> moments_ = decltype(moments_)::Zero();
-  int in_a_row_ = 0;      // of the newest readings, up to kWindow
-  double windows_ = 0.0;  // so far
+  RunningMean power_{StreamClock::kMemory};  // of a window
   std::vector<double> predicted_ = std::vector<double>(kMost);
 };
 

@@ -44,9 +44,9 @@ class SamplingTest {
 /// When the readings of one stream were taken, by their stamps: phase and period of a stream that reads regularly, by
 /// one alpha-beta filter, whose gains are those of least squares over the newest 1000 readings (Kalata, IEEE Trans.
 /// AES 20 (1984), 174-182). A stamp near the regular time is used as it is, unless the readings show that they were
-/// taken regularly (SamplingTest). One farther off follows several lost readings and is used as it is; where messages
-/// were seen to wait, the regular time is, unless the readings show that they were taken as stamped. Cost per reading:
-/// O(1), no allocation.
+/// taken regularly (SamplingTest). One farther off usually follows several lost readings, whose number it tells; if
+/// messages were seen to wait, the regular time is used instead, unless the readings show that they were taken as
+/// stamped. Cost per reading: O(1), no allocation.
 class StreamClock {
  public:
   static constexpr double kMemory = 0.999;  ///< forgetting factor
@@ -82,7 +82,7 @@ class StreamClock {
   double readings_ = 0.0;                   // that phase and period rest on
   double miscount_ = 0.0, evidence_ = 0.0;  // periods that the count may be short of, ln of its likelihood ratio
   double whole_before_ = 0.0;               // periods that the newest reading was off by
-  bool messages_wait_ = false;              // a stamp that was off by periods was followed by one that was off by fewer
+  int waits_ = 0;  // kSignalTuning.miscount from a message that waited, less one each time several are lost in a row
   int out_of_step_ = 0;
   RunningMean square_{kMemory}, jitter_{kMemory};  // of the distance from the regular time, of the spacing [s^2]
   std::int64_t lost_ = 0;

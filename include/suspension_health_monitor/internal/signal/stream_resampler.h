@@ -82,7 +82,7 @@ class SmoothingSpline {
 /// reading and per value, no allocation.
 class StreamResampler {
  public:
-  static constexpr int kHalfWidth = 8;  ///< [T]; so late is a value
+  static constexpr int kHalfWidth = 8;  ///< [T]; so late is a value, but for losses
 
   /// @param period  T of the grid > 0.
   explicit StreamResampler(Stamp period);
