@@ -126,7 +126,7 @@ TEST(StreamClock, KnowsWhenTheReadingAfterSeveralLostOnesWasTaken) {
     StreamClock clock;
     for (int k = 1; k <= 3000; ++k) {
       const int place = k % 50;
-      // Also beside another loss.
+      // One more reading is lost behind the first one that comes again.
       if (k > 1000 && (place < lost || place == lost + 1)) continue;
       const double taken = kPeriod * k;
       EXPECT_NEAR(toSeconds(clock.add(fromSeconds(taken), signal(taken))), taken, 0.01 * kPeriod) << lost << ' ' << k;

@@ -176,7 +176,7 @@ TEST(StreamResampler, LowersNoiseByTheShareOfTheBandThatItKeeps) {
   }
 }
 
-// Of even readings the stream itself tells what was lost: the errors are those without any loss.
+// Where readings are regular the error is no larger than without any loss: 4e-3 of each of the three sines.
 TEST(StreamResampler, PredictsLostReadingsOfFastMotion) {
   const auto motion = [](double t) { return sine(7.0)(t) + sine(25.0)(t) + sine(58.0)(t); };
   std::vector<double> values = resampled(timesOf({200.0, 0.0013, 0.0, 0.02}, 3), motion);

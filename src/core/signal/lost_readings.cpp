@@ -14,7 +14,7 @@ void LostReadings::add(double value) {
   newest_[kWindow - 1] = value - *first_;
   in_a_row_ = std::min(in_a_row_ + 1, kWindow);
   if (in_a_row_ < kWindow) return;
-  // A reading that is far out, as of a blow, would outweigh all others.
+  // A window with a blow has so much power that it would outweigh all the others.
   const double power = newest_.squaredNorm();
   const bool is_far_out = power_.weight() > 0.0 && kSmall * power > power_.mean();
   power_.add(power);

@@ -108,16 +108,14 @@ Taps makeTaps() {
   return taps / taps.sum();
 }
 
-// @return readings that were lost between two; 0 before it is known how far apart readings usually are.
-std::uint64_t numLost(const SensorReading& before, const SensorReading& after) {
-  if (!(after.usual_spacing > 0.0)) return 0;
-  return std::max(1L, std::lround(toSeconds(after.taken - before.taken) / after.usual_spacing)) - 1;
+// @return periods of the stream from one reading to the next; 0 if its period is not known yet.
+double periodsBetween(const SensorReading& before, const SensorReading& after) {
+  return after.usual_spacing > 0.0 ? toSeconds(after.taken - before.taken) / after.usual_spacing : 0.0;
 }
 
-// @return whole periods from one reading to the next; 0 if they are not whole, or the period is not known yet.
-long periodsBetween(const SensorReading& before, const SensorReading& after) {
-  if (!(after.usual_spacing > 0.0)) return 0;
-  const double periods = toSeconds(after.taken - before.taken) / after.usual_spacing;
+// @return the same in whole periods; 0 if they are not whole.
+long wholePeriodsBetween(const SensorReading& before, const SensorReading& after) {
+  const double periods = periodsBetween(before, after);
   return std::abs(periods - std::round(periods)) <= kSmall ? std::lround(periods) : 0;
 }
 
@@ -163,14 +161,14 @@ bool StreamResampler::fillIn(const ReadingQueue& waiting) {
   // Of a slower stream the readings after the loss would come too late for those that wait for it.
   const bool is_slow = static_cast<double>(farthest) * waiting.front().usual_spacing > toSeconds(kMostOptionalLag);
   if (!first_ || is_slow || !lost_readings_.isReady()) return true;
-  const long periods = periodsBetween(last_, waiting.front());
+  const long periods = wholePeriodsBetween(last_, waiting.front());
   if (periods < 2 || periods > LostReadings::kMost + 1) return true;
   after_loss_.clear();
   const SensorReading* before = &last_;
   for (long place = 0; place < farthest;) {
     if (after_loss_.size() == waiting.size()) return false;
     const SensorReading& next = waiting[after_loss_.size()];
-    const long since = periodsBetween(*before, next);
+    const long since = wholePeriodsBetween(*before, next);
     place += since;
     if (since == 0 || place > farthest) break;
     after_loss_.push_back({static_cast<int>(place), next.value});
@@ -196,8 +194,8 @@ void StreamResampler::begin(const SensorReading& reading) {
 }
 
 void StreamResampler::take(const SensorReading& reading) {
-  bridged_ += numLost(last_, reading);
-  if (periodsBetween(last_, reading) != 1) lost_readings_.startNewSeries();
+  bridged_ += static_cast<std::uint64_t>(std::max(1L, std::lround(periodsBetween(last_, reading))) - 1);
+  if (wholePeriodsBetween(last_, reading) != 1) lost_readings_.startNewSeries();
   const double position =
       2.0 * static_cast<double>((reading.taken - *origin_).count()) / static_cast<double>(period_.count());
   for (; static_cast<double>(next_knot_) < position; ++next_knot_) stillAt(next_knot_) = last_.still;

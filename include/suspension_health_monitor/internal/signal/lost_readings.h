@@ -11,10 +11,10 @@ namespace suspension_health_monitor {
 
 /// Predicts readings that were lost from those around them, by the linear least squares that fit the stream so far:
 /// with G the sum of v v' over windows v of successive readings, which forgets as StreamClock does, the weights of the
-/// known readings are G_known^-1 G_(known, lost). Readings are equally spaced. The motion of a wheel is missed by
-/// little more than noise; a polynomial misses it by the more the fewer readings there are in a period. Source: N.
-/// Wiener, Extrapolation, interpolation and smoothing of stationary time series (1949), with sample moments. Cost:
-/// O(kWindow^2) per reading, O(kWindow^3) per loss, no allocation.
+/// known readings are G_known^-1 G_(known, lost). Readings must be equally spaced. The error for a wheel's motion is
+/// little more than its noise; that of a polynomial grows as there are fewer readings in a period. Source: N. Wiener,
+/// Extrapolation, interpolation and smoothing of stationary time series (1949), with sample moments. Cost: O(kWindow^2)
+/// per reading, O(kWindow^3) per loss, no allocation.
 class LostReadings {
  public:
   static constexpr int kMost = 3;    ///< readings that are lost in a row
@@ -45,7 +45,7 @@ class LostReadings {
 
  private:
   using Window = Eigen::Matrix<double, kWindow, 1>;
-  std::optional<double> first_;     // reading of all: taken off, since the weights of a constant would have to be known
+  std::optional<double> first_;     // reading, taken off all: the weights do not add up to 1, as a constant would need
   Window newest_ = Window::Zero();  // the oldest first
   int in_a_row_ = 0;                // of the newest readings, up to kWindow
   int windows_ = 0;                 // up to 2 kWindow

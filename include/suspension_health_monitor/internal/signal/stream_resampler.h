@@ -78,8 +78,8 @@ class SmoothingSpline {
 /// A constant passes exactly.
 ///
 /// A pause of up to kSignalTuning.longest_bridge periods (the grid's or the stream's own, whichever is longer) is
-/// bridged: by LostReadings, after which the next readings are waited for, or else by the spline. Cost: O(1) per
-/// reading and per value, no allocation.
+/// bridged: by LostReadings, which waits for readings after the loss, or else by the spline. Cost: O(1) per reading and
+/// per value, no allocation.
 class StreamResampler {
  public:
   static constexpr int kHalfWidth = 8;  ///< [T]; so late is a value, but for losses
