@@ -7,16 +7,15 @@
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
-BOOST_HANA_ADAPT_STRUCT(shm::Identification, sample_period, horizon_samples, estimate, now, ls, la, samples, rows, gaps,
-                        clock_jumps, rejected, warnings, mean_period, alignment, bridged, tyre, sprung_mass, change,
-                        course);
-BOOST_HANA_ADAPT_STRUCT(shm::HealthSummary, events, early_warnings, end, seconds, counts, estimate, ls, la, reference,
-                        baseline, rejected, course);
-BOOST_HANA_ADAPT_STRUCT(shm::SearchedStrut, verdict, summary, remainder, selected, indistinguishable, suggested_drive,
-                        base, base_fit_percent, noise_floor, structured_share, surface_share, explained_share, ranking,
-                        extended, extended_fit_percent, final_fit, change, not_tried);
-
 namespace suspension_health_monitor {
+
+SHM_FIELDS(Identification, sample_period, horizon_samples, estimate, now, ls, la, samples, rows, gaps, clock_jumps,
+           rejected, warnings, mean_period, alignment, bridged, tyre, sprung_mass, change, course)
+SHM_FIELDS(HealthSummary, events, early_warnings, end, seconds, counts, estimate, ls, la, reference, baseline, rejected,
+           course)
+SHM_FIELDS(SearchedStrut, verdict, summary, remainder, selected, indistinguishable, suggested_drive, base,
+           base_fit_percent, noise_floor, structured_share, surface_share, explained_share, ranking, extended,
+           extended_fit_percent, final_fit, change, not_tried)
 
 namespace py = pybind11;
 
@@ -30,11 +29,10 @@ template <class Bin>
 void bindBins(py::module& module, const char* class_name, const char* text) {
   BinsClass<Bin> bins(module, class_name, text);
   bins.def("__len__", [](const std::vector<Bin>& self) { return self.size(); });
-  boost::hana::for_each(boost::hana::accessors<Bin>(), [&](const auto& field) {
-    const std::string_view name = boost::hana::to<const char*>(boost::hana::first(field));
+  Fields<Bin>::forEach([&](const std::string_view name, auto field) {
     bins.addColumn(
         name == "from" ? "from_" : name.data(),  // from is a keyword of Python
-        [](const std::vector<Bin>& self) -> const auto& { return self; }, boost::hana::second(field));
+        [](const std::vector<Bin>& self) -> const auto& { return self; }, field);
   });
 }
 

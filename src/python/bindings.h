@@ -4,7 +4,6 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <boost/hana.hpp>
 #include <functional>
 #include <string_view>
 #include <type_traits>
@@ -54,10 +53,8 @@ class ResultClass : public pybind11::class_<Result> {
  public:
   ResultClass(pybind11::module& module, const char* name, const char* text)
       : pybind11::class_<Result>(module, name, text) {
-    if constexpr (boost::hana::Struct<Result>::value)
-      boost::hana::for_each(boost::hana::accessors<Result>(), [this](const auto& field) {
-        this->addField(boost::hana::to<const char*>(boost::hana::first(field)), boost::hana::second(field));
-      });
+    if constexpr (Fields<Result>::value)
+      Fields<Result>::forEach([this](const char* name, auto field) { this->addField(name, field); });
   }
 
   template <class What>

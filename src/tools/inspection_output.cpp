@@ -33,7 +33,7 @@ using Row = std::array<std::string, 6>;
 
 /// @return a line per number, the headings first.
 std::vector<Row> rowsOf(const Inspected& inspected) {
-  std::vector<Row> rows{{"number", "of", "value", "95 % interval", "limit", "verdict"}};
+  std::vector<Row> rows{{"number", "strut", "value", "95 % interval", "limit", "verdict"}};
   for (std::size_t i = 0; i < inspected.struts.size(); ++i) {
     const InspectedStrut& strut = inspected.struts[i];
     const ValueRange& range = inspected.result.frequencies[i];

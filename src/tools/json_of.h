@@ -1,10 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/hana.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 #include "result_fields.h"
@@ -35,11 +33,9 @@ void addTo(nlohmann::json& into, const char* name, const std::optional<Value>& v
 
 template <class Value>
 nlohmann::json jsonOf(const Value& value) {
-  if constexpr (boost::hana::Struct<Value>::value) {
+  if constexpr (Fields<Value>::value) {
     nlohmann::json into;
-    boost::hana::for_each(boost::hana::accessors<Value>(), [&](const auto& field) {
-      addTo(into, boost::hana::to<const char*>(boost::hana::first(field)), boost::hana::second(field)(value));
-    });
+    Fields<Value>::forEach([&](const char* name, auto field) { addTo(into, name, value.*field); });
     return into;
   } else if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
     nlohmann::json rows = nlohmann::json::array();

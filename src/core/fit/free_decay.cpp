@@ -24,8 +24,8 @@ class DecayWindowSums {
   DecayWindowSums(double period, Eigen::Index count) : period_(period) {
     const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
     Eigen::MatrixXd own(count, 3);
-    own << Eigen::VectorXd::Ones(count), t, t.cwiseAbs2();
-    own_ = own.householderQr().householderQ() * Eigen::MatrixXd::Identity(count, 3);
+    own << Eigen::VectorXd::Ones(count), t, t.cwiseAbs2().array() - t.cwiseAbs2().mean();  // orthogonal
+    own_ = own.colwise().normalized();
   }
 
   DecayWindow of(const std::vector<CornerSample>& samples, std::size_t first) const {
