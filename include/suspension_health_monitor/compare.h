@@ -81,7 +81,8 @@ struct CompareOptions {
   /// true: b1, b0, coefficients and shapes are fitted by output error, from the model as the first guess.
   /// false: the model's numbers are judged as they are; only the initial state of every segment is estimated.
   bool fit = true;
-  /// Told how much is done, 0 .. 1, on the calling thread. What it throws ends the comparison and comes out of it.
+  /// Called with the share that is done, 0 .. 1, on the calling thread. What it throws ends the comparison and comes
+  /// out of it.
   std::function<void(double share)> progress = {};
 };
 

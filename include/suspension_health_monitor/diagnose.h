@@ -47,8 +47,8 @@ struct DiagnoseOptions {
   int threads = 2;       ///< the result is the same for any number
   int most_effects = 3;  ///< to add
   int most_forces = 2;   ///< among them: three can imitate almost any law of travel and travel rate
-  /// Told how much is done, 0 .. 1, every now and then, on the calling thread. What it throws ends the search and comes
-  /// out of diagnose(): the way to cancel.
+  /// Called every now and then with the share that is done, 0 .. 1, on the calling thread. What it throws ends the
+  /// search and comes out of diagnose(): the way to cancel.
   std::function<void(double share)> progress = {};
 };
 

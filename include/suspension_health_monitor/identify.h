@@ -16,7 +16,7 @@ struct IdentifyOptions {
   std::optional<double> sample_period;  ///< T [s]; nothing: the median spacing of the samples
   std::optional<int> horizon_samples;   ///< L of the integral filter; nothing: proposed from the data
   std::optional<double> memory;         ///< of ls and la [s], at least 10 samples; nothing: 2, or 10/3 of the horizon
-  /// Told what the live monitor would have said after every sample, on the calling thread.
+  /// Called with the live monitor's report after every sample, on the calling thread.
   std::function<void(const MonitorReport&)> report = {};
 };
 

@@ -120,12 +120,12 @@ struct StrutEstimate {
 };
 
 /// How the healthy strut's damping goes with the temperature of its damper: ln b1 changes by per_kelvin. The oil of
-/// dampers loses 0.1 to 1 % of its damping per kelvin, so before anything is learned it is 0 +- kUsual.
+/// dampers loses 0.1 to 1 % of its damping per kelvin, so before anything is learned it is 0 +- kPriorStddev.
 struct DamperTemperature {
-  static constexpr double kUsual = 0.005;  ///< [1/K]
-  double celsius = 0.0;                    ///< at which the baseline's b1 holds
-  double per_kelvin = 0.0;                 ///< d ln b1 / dT [1/K]
-  double per_kelvin_stddev = kUsual;       ///< [1/K]
+  static constexpr double kPriorStddev = 0.005;  ///< [1/K]
+  double celsius = 0.0;                          ///< at which the baseline's b1 holds
+  double per_kelvin = 0.0;                       ///< d ln b1 / dT [1/K]
+  double per_kelvin_stddev = kPriorStddev;       ///< [1/K]
 };
 
 /// What one estimator knows of wheel and tyre. NaN: nothing yet.

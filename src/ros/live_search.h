@@ -17,7 +17,7 @@
 
 namespace suspension_health_monitor {
 
-/// Told every now and then how much of a search is done, 0 .. 1; what it throws ends the search.
+/// Called every now and then with the share of a search that is done, 0 .. 1; what it throws ends the search.
 using SearchProgress = std::function<void(double share)>;
 
 /// ~diagnose: a search that takes seconds, beside a nodelet that must not wait for it.

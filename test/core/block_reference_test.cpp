@@ -14,7 +14,7 @@ namespace suspension_health_monitor {
 namespace {
 
 enum Kind { kWheel, kForce, kBody, kInformation = 5, kScore, kMoments, kPowers, kTheta, kCovariance, kNoise, kRest };
-enum UsualKind { kUsual = 13, kThetaUsual, kCovarianceUsual, kRestUsual };
+enum MedianKind { kMedian = 13, kThetaMedian, kCovarianceMedian, kRestMedian };
 constexpr int kSummed = 3;           // block whose bands are stored
 constexpr double kTolerance = 1e-9;  // relative; what it is relative to is said where it stands
 
@@ -161,12 +161,12 @@ class BlockReference : public testing::Test {
       EXPECT_NEAR(rests[i], others[i], kTolerance * others[i]) << "drive " << drive.number << ", " << m << ", " << i;
   }
 
-  static WindowEstimate fit(const ReferenceDrive& drive, int count, const Eigen::VectorXd& usual = {}) {
+  static WindowEstimate fit(const ReferenceDrive& drive, int count, const Eigen::VectorXd& median = {}) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     const BlockPrior prior{blockTheta(0.0, 0.0), blockTheta(kUnknown, kUnknown, 0.005, 0.29, 0.3, 0.1)};
     WindowFit window_fit(drive.equations.band(), drive.equations.columns(), 64);
     WindowEstimate result;
-    window_fit.fit(drive.newest(count), prior, drive.theta, usual, 0.0, result);
+    window_fit.fit(drive.newest(count), prior, drive.theta, median, 0.0, result);
     return result;
   }
 
@@ -213,9 +213,9 @@ TEST_F(BlockReference, HasTheSameEstimateOfFewAndOfAllBlocks) {
 TEST_F(BlockReference, CountsUnusualBlocksForTheSameLess) {
   for (const ReferenceDrive& drive : drives_) {
     const int count = static_cast<int>(drive.blocks.size());
-    const Values& usual = expected(drive, kUsual, count);
-    const Eigen::Map<const Eigen::VectorXd> powers(usual.data(), static_cast<Eigen::Index>(usual.size()));
-    expectEstimate(drive, fit(drive, count, powers), kThetaUsual, kCovarianceUsual, kRestUsual);
+    const Values& median = expected(drive, kMedian, count);
+    const Eigen::Map<const Eigen::VectorXd> powers(median.data(), static_cast<Eigen::Index>(median.size()));
+    expectEstimate(drive, fit(drive, count, powers), kThetaMedian, kCovarianceMedian, kRestMedian);
   }
 }
 

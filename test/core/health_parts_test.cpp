@@ -245,7 +245,7 @@ TEST(BaselineLearner, OfOneTemperatureDoesNotKnowWhatAnotherOneDoes) {
   std::optional<Baseline> learned;
   for (int k = 0; !learned; ++k) learned = learner.add(fromSeconds(k), warmEstimate(20.0), 1.0);
   const LogChange warm = *changeFrom(*learned, warmEstimate(60.0)).change.damping;
-  EXPECT_NEAR(warm.stddev, 40.0 * DamperTemperature::kUsual, 0.01);
+  EXPECT_NEAR(warm.stddev, 40.0 * DamperTemperature::kPriorStddev, 0.01);
   EXPECT_NEAR(warm.size, -0.003 * 40.0, 1e-6);
   EXPECT_LT(changeFrom(*learned, warmEstimate(20.0)).change.damping->stddev, 0.01);
   StrutEstimate without = warmEstimate(20.0);

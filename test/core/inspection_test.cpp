@@ -1,9 +1,9 @@
+#include "suspension_health_monitor/internal/health/inspection.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
-
-#include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
 namespace {

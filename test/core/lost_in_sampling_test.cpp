@@ -1,4 +1,5 @@
-// What sampling loses of a model's own forces: nothing of linear ones; of dry friction where between two samples it turned.
+// What sampling loses of a model's own forces: nothing of linear ones; of dry friction where between two samples it
+// turned.
 #include <gtest/gtest.h>
 
 #include <cmath>

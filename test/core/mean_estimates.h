@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "uniform_grid.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
+#include "uniform_grid.h"
 
 namespace suspension_health_monitor {
 

@@ -40,10 +40,10 @@ std::vector<double> resampled(const std::vector<double>& times, const std::funct
                               Stamp start = {}) {
   StreamResampler stream(fromSeconds(kPeriod));
   ReadingQueue readings(kMostWaiting);
-  const double usual_spacing = (times.back() - times.front()) / static_cast<double>(times.size());
+  const double stream_period = (times.back() - times.front()) / static_cast<double>(times.size());
   for (const double t : times) {
     const Stamp stamp = fromSeconds(t);  // whole nanoseconds
-    readings.push_back({start + stamp, start + stamp, signal(toSeconds(stamp)), false, usual_spacing});
+    readings.push_back({start + stamp, start + stamp, signal(toSeconds(stamp)), false, stream_period});
   }
   std::vector<double> values;
   for (int k = 10; k < kCount + 10; ++k) {

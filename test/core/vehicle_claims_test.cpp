@@ -96,18 +96,18 @@ TEST(VehicleClaims, TellByHowMuchAStreamIsLate) {
     EXPECT_LT(found.stddev, 5e-4);
     EXPECT_FALSE(found.isContradiction());
   };
-  expectLate(late(shortDrive(), [](Record& record) { delay(record.wheel[1], 2); }), Kind::kLateWheel, 1, 0.02);
-  expectLate(late(shortDrive(), [](Record& record) { delay(record.body[2], 1); }), Kind::kLateTop, 2, 0.01);
+  expectLate(late(shortDrive(), [](Record& record) { delay(record.wheel[1], 2); }), Kind::kWheelDelay, 1, 0.02);
+  expectLate(late(shortDrive(), [](Record& record) { delay(record.body[2], 1); }), Kind::kTopDelay, 2, 0.01);
   expectLate(late(shortDrive(),
                   [](Record& record) {
                     for (auto& wheel : record.wheel) delay(wheel, 1);
                   }),
-             Kind::kLateTops, 0, -0.01);
+             Kind::kTopsDelay, 0, -0.01);
   expectLate(late(byBody(),
                   [](Record& record) {
                     for (auto& channel : record.imu) delay(channel, 1);
                   }),
-             Kind::kLateBody, 0, 0.01);
+             Kind::kBodyDelay, 0, 0.01);
 }
 
 // A delay that may be that of links, too, is not fitted.

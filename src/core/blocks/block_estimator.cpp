@@ -72,14 +72,14 @@ const std::vector<const StrutBlock*>& BlockEstimator::newest(int count, int from
 }
 
 bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result) {
-  window_fit_.fit(newest(window), prior, theta_, weights_.usual, scatter_, result);
+  window_fit_.fit(newest(window), prior, theta_, weights_.median, scatter_, result);
   return result.isUsable();
 }
 
 std::optional<WindowEstimate> BlockEstimator::ofBlocks(int from, int count) {
   if (!has_theta_ || count < kBlockWindows.front() || from + count > count_) return std::nullopt;
   WindowEstimate result;
-  window_fit_.fit(newest(count, from), first_, theta_, weights_.usual, scatter_, result);
+  window_fit_.fit(newest(count, from), first_, theta_, weights_.median, scatter_, result);
   if (!result.isUsable()) return std::nullopt;
   return result;
 }
@@ -130,7 +130,7 @@ bool BlockEstimator::start() {
   scatter_ = 1.0;  // what was known is lost
   reported_worst_ = HUGE_VAL;
   // Where a strut was known and lost few blocks tell it from what went before, as from a burst of wrong readings.
-  const bool was_known = is_alone && weights_.usual.size() > 0;
+  const bool was_known = is_alone && weights_.median.size() > 0;
   if (startBy(std::min(count_, kBlockTuning.start_blocks)) || (was_known && startBy(kBlockWindows.front()))) {
     for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
     return true;
@@ -163,13 +163,13 @@ bool BlockEstimator::startBy(int window) {
 
 // Blocks that were never linearised, since no strut was known then, tell nothing.
 void BlockEstimator::retire(const StrutBlock& block) {
-  if (weights_.usual.size() > 0 && block.at[kBlockStiffness] > 0.0) drive_.add(block, weights_, block.at);
+  if (weights_.median.size() > 0 && block.at[kBlockStiffness] > 0.0) drive_.add(block, weights_, block.at);
 }
 
 void BlockEstimator::retireAll() {
-  if (count_ > 0 && has_theta_ && weights_.usual.size() == 0 && fit(count_, first_, trial_)) {
+  if (count_ > 0 && has_theta_ && weights_.median.size() == 0 && fit(count_, first_, trial_)) {
     weights_ = window_fit_.weights();
-    weights_.usual = weights_.noise;
+    weights_.median = weights_.noise;
   }
   for (int age = count_ - 1; age >= 0; --age) retire(block(age));
   count_ = 0;
@@ -177,7 +177,7 @@ void BlockEstimator::retireAll() {
 
 void BlockEstimator::restart() {
   retireAll();
-  weights_.usual = BandVector();
+  weights_.median = BandVector();
   scatter_ = 1.0;
   slow_ = scaled_ = first_;
   has_theta_ = false;
@@ -207,25 +207,25 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
 }
 
 // A window ends where shorter ones say that the strut was another one, and the newest blocks leave more of it than
-// blocks usually do: at a stop an event that no strut explains, as the level of a tilted IMU, is all that they tell.
+// the median block: at a stop an event that no strut explains, as the level of a tilted IMU, is all that they tell.
 // Source: O. V. Lepskii, On a problem of adaptive estimation in Gaussian white noise (1991).
 bool BlockEstimator::contradictsShorter(const WindowEstimate& estimate) {
   for (const Shorter& each : shorter_)
     if (((estimate.theta.head<2>() - each.theta).array().abs() > kProven * each.stddev.array()).any() &&
-        leavesUnusual(each.blocks))
+        leavesMoreThanMedian(each.blocks))
       return true;
   shorter_.push_back({estimate.blocks, estimate.theta.head<2>(), estimate.covariance.diagonal().head<2>().cwiseSqrt()});
   return false;
 }
 
-// @return true if the newest fit leaves more of the newest blocks than usual: of most of them, as an event is in one or
-// two only.
-bool BlockEstimator::leavesUnusual(int blocks) {
-  if (weights_.usual.size() == 0) return true;
+// @return true if the newest fit leaves more of the newest blocks than of the median one: of most of them, as an event
+// is in one or two only.
+bool BlockEstimator::leavesMoreThanMedian(int blocks) {
+  if (weights_.median.size() == 0) return true;
   sorted_.clear();
   const auto newest = window_fit_.power().rightCols(blocks);
-  for (int b = 0; b < blocks; ++b) sorted_.push_back(weights_.timesUsual(newest.col(b)));
-  return medianInPlace(sorted_) > kBlockTuning.unusual;
+  for (int b = 0; b < blocks; ++b) sorted_.push_back(weights_.overMedian(newest.col(b)));
+  return medianInPlace(sorted_) > kBlockTuning.excess;
 }
 
 bool BlockEstimator::isStale(const StrutBlock& block) const {
@@ -246,7 +246,7 @@ void BlockEstimator::refine(int window, const BlockPrior& prior) {
   }
   if (refined == 0) return;
   trial_ = best_;
-  window_fit_.fit(newest(window), prior, best_.theta, weights_.usual, scatter_, trial_);
+  window_fit_.fit(newest(window), prior, best_.theta, weights_.median, scatter_, trial_);
   if (trial_.isUsable()) std::swap(best_, trial_);
 }
 

@@ -7,8 +7,8 @@
 namespace suspension_health_monitor {
 
 double BlockWeights::of(const Eigen::Ref<const Eigen::ArrayXd>& power) const {
-  if (usual.size() == 0) return 1.0;
-  const double times = timesUsual(power);
+  if (median.size() == 0) return 1.0;
+  const double times = overMedian(power);
   return times > kBlockTuning.full ? kBlockTuning.full * kBlockTuning.full / (times * times) : 1.0;
 }
 

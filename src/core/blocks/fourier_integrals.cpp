@@ -71,10 +71,10 @@ int FourierIntegrals::lostBefore(double time) {
     spacings_ = 0;
     return 0;
   }
-  const bool is_usual = spacings_ < 2 || spacing < 1.5 * usual_;
-  const long lost = is_usual ? 0 : std::lround(spacing / usual_) - 1;
-  spacings_ = std::min(spacings_ + 1, kBlockTuning.usual_of);
-  usual_ += (spacing - usual_) / spacings_;
+  const bool is_regular = spacings_ < 2 || spacing < 1.5 * mean_spacing_;
+  const long lost = is_regular ? 0 : std::lround(spacing / mean_spacing_) - 1;
+  spacings_ = std::min(spacings_ + 1, kBlockTuning.spacings_of_mean);
+  mean_spacing_ += (spacing - mean_spacing_) / spacings_;
   return lost <= kBlockTuning.most_lost ? static_cast<int>(lost) : 0;
 }
 

@@ -63,17 +63,17 @@ void BlockEstimator::learnSlow() {
   }
   const auto& power = window_fit_.power();
   weights_ = window_fit_.weights();
-  weights_.usual.resize(power.rows());
+  weights_.median.resize(power.rows());
   for (Eigen::Index i = 0; i < power.rows(); ++i) {
     sorted_.assign(power.row(i).begin(), power.row(i).end());
-    weights_.usual[i] = std::max(medianInPlace(sorted_), std::numeric_limits<double>::min());
+    weights_.median[i] = std::max(medianInPlace(sorted_), std::numeric_limits<double>::min());
   }
   scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
   of_all_ = trial_;
 }
 
 bool BlockEstimator::contradictsSlow() {
-  if (weights_.usual.size() == 0) return false;
+  if (weights_.median.size() == 0) return false;
   BlockPrior open = scaled_;
   open.stddev = first_.stddev;
   if (!fit(kBlockWindows.front(), open, trial_)) return false;

@@ -38,9 +38,9 @@ WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int mos
 }
 
 void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
-                    const BandVector& usual, double least_inflation, WindowEstimate& result) {
+                    const BandVector& median, double least_inflation, WindowEstimate& result) {
   blocks_ = static_cast<int>(blocks.size());
-  weights_.usual = usual;
+  weights_.median = median;
   result.blocks = blocks_;
   result.theta = start;
   solved_ = start.head<2>();

@@ -48,8 +48,8 @@ class FailureFinder {
 
   /// @return rms of the samples that a range leaves out; 0 if there are none.
   double rmsElsewhere(const BinRange& range) const {
-    const double left = square(views_.rms) * numSamples() - range.squares;
-    return numSamples() > range.count ? std::sqrt(std::max(0.0, left) / (numSamples() - range.count)) : 0.0;
+    const double elsewhere = square(views_.rms) * numSamples() - range.squares;
+    return numSamples() > range.count ? std::sqrt(std::max(0.0, elsewhere) / (numSamples() - range.count)) : 0.0;
   }
 
   /// @return the two ranges of bins with a force of one sign that hold most of it, the stronger first. The second only

@@ -92,8 +92,8 @@ class LocalFit {
     const Eigen::LDLT<Eigen::Matrix2d> factors(gram_);
     if (bin.count < kFewestForScatter || !(factors.rcond() > 1e-14)) return;
     const Eigen::Vector2d solution = factors.solve(moment_);
-    const double left = std::max(0.0, square_ - moment_.dot(solution)) / (static_cast<double>(bin.count) - 2.0);
-    const Eigen::Matrix2d covariance = left * memory * factors.solve(Eigen::Matrix2d::Identity());
+    const double variance = std::max(0.0, square_ - moment_.dot(solution)) / (static_cast<double>(bin.count) - 2.0);
+    const Eigen::Matrix2d covariance = variance * memory * factors.solve(Eigen::Matrix2d::Identity());
     bin.damping_error = solution[0];
     bin.stiffness_error = solution[1];
     bin.damping_error_stddev = std::sqrt(std::max(0.0, covariance(0, 0)));

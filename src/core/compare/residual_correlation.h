@@ -109,8 +109,8 @@ inline std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const Resid
   for (int lag = -lags; lag <= lags; ++lag) {
     // Noise on w'' is in the model's input with its own sign, so in the residual with the opposite one.
     const double noise_square = share * noise_floor * noise_floor;
-    const double left = lag > 0 && sizes > 0.0 ? -noise_square * through[lag - 1] / sizes : 0.0;
-    addLag(lag, series.period, cross(lag), left, cross_band, cross_correlation);
+    const double centre = lag > 0 && sizes > 0.0 ? -noise_square * through[lag - 1] / sizes : 0.0;
+    addLag(lag, series.period, cross(lag), centre, cross_band, cross_correlation);
   }
   countOutside(cross_band, 1.0 + wheel_squares, cross_correlation);
   return {std::move(whiteness), std::move(cross_correlation)};

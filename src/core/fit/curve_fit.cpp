@@ -73,7 +73,7 @@ class CurveFit {
         fit_(start),
         accuracy_(accuracyOfFreeRuns(records)) {
     const LinearResponse response(records, start);
-    usual_ = {response.travelRate(), response.travel()};
+    rms_ = {response.travelRate(), response.travel()};
     std::array<double, 2> most{};
     for (const StrutMotion& motion : response.motion().samples)
       for (const std::size_t w : {kDamper, kSpring}) most[w] = std::max(most[w], std::abs(variableOf(motion, w)));
@@ -94,8 +94,7 @@ class CurveFit {
 
   /// @return false if nothing moves enough, or the model runs away.
   bool solve() {
-    if (!(usual_[kDamper] > 0.0) || counts_.sum() < static_cast<double>(kRowsPerColumn * size()) || !run())
-      return false;
+    if (!(rms_[kDamper] > 0.0) || counts_.sum() < static_cast<double>(kRowsPerColumn * size()) || !run()) return false;
     for (int refined = 0;; ++refined) {
       std::optional<bool> settled = false;
       for (int i = 0; i < kMostSteps && settled == false; ++i) settled = step();
@@ -112,7 +111,7 @@ class CurveFit {
       stddev.push_back(std::hypot(byNoise(which, i), std::max(misfit(which, i), beside)));
     }
     const auto isKnown = [&](std::size_t i) {
-      return stddev[i] < kSmall * std::max(slopes_[which] * usual_[which], std::abs(law.values[i]));
+      return stddev[i] < kSmall * std::max(slopes_[which] * rms_[which], std::abs(law.values[i]));
     };
     std::size_t first = zero(which), last = first;
     while (first > 0 && isKnown(first - 1)) --first;
@@ -258,7 +257,7 @@ class CurveFit {
   std::vector<ActiveEffect> momentary_;
   ModelFit fit_;
   std::array<NodalLaw, 2> laws_;
-  std::array<double, 2> usual_{};   // rms of what they depend on
+  std::array<double, 2> rms_{};     // rms of what they depend on
   double offset_ = 0.0, accuracy_;  // [m/s^2]
   Eigen::VectorXd counts_;          // 1 for samples that count, else 0
   Eigen::Index cluster_ = 0;

@@ -31,7 +31,7 @@ std::vector<double> powerOf(const Residuals& residuals) {
 }
 
 /// What the noise of all sensors leaves of a linear model's free run.
-FitOutcome leftOfNoise(const std::vector<CornerSample>& noise, double period, const StrutModel& model) {
+FitOutcome residualsOfNoise(const std::vector<CornerSample>& noise, double period, const StrutModel& model) {
   const StrutModel linear{model.damping_to_mass, model.stiffness_to_mass, {}, {}};
   const std::deque<DriveRecord> records = makeRecords({Drive{noise}}, period, linear);
   return withoutFit(pointersTo(records), linear);
@@ -58,13 +58,13 @@ double foldedMotion(const Records& records, const StrutModel& model) {
 
 double floorOfKnownNoise(const Records& records, const StrutModel& model) {
   const FitOutcome fit = withoutFit(records, model);
-  const FitOutcome noise = leftOfNoise(records.front()->noise(), records.front()->period(), model);
+  const FitOutcome noise = residualsOfNoise(records.front()->noise(), records.front()->period(), model);
   if (!fit || !noise) return 0.0;
-  const std::vector<double> left = powerOf(fit->residuals), known = powerOf(noise->residuals);
+  const std::vector<double> residual = powerOf(fit->residuals), known = powerOf(noise->residuals);
   const double mean = std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
   std::vector<double> levels;
   for (std::size_t f = 0; f < known.size(); ++f)
-    if (known[f] > kNone * mean) levels.push_back(left[f] / known[f]);
+    if (known[f] > kNone * mean) levels.push_back(residual[f] / known[f]);
   return std::sqrt(median(levels)) * std::sqrt(meanSquare(noise->residuals));
 }
 

@@ -146,7 +146,7 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   judged_.friction_doubt = judged_.uncertain && changed.is_mostly_friction;
   noteLoad(change);
   since_early_ += seconds;
-  warnEarly(change, estimate.window);
+  updateEarlyWarning(change, estimate.window);
 }
 
 // The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.
@@ -217,7 +217,7 @@ void HealthAssessment::judge(const StrutChange& change) {
   if (now.level == HealthLevel::kOk && now.uncertain) now.level = HealthLevel::kStale;
 }
 
-void HealthAssessment::warnEarly(const StrutChange& change, double window) {
+void HealthAssessment::updateEarlyWarning(const StrutChange& change, double window) {
   if (since_early_ < window) return;
   since_early_ = 0.0;
   if (change.damping)

@@ -161,7 +161,7 @@ bool BaselineLearner::drifts() const {
   const auto damping = [&](const Half& half) {
     return half.damping.mean + (half.friction ? half.friction->force * gain : 0.0);
   };
-  const double warmth = a.celsius && b.celsius ? DamperTemperature::kUsual * (*b.celsius - *a.celsius) : 0.0;
+  const double warmth = a.celsius && b.celsius ? DamperTemperature::kPriorStddev * (*b.celsius - *a.celsius) : 0.0;
   return apart(damping(a), damping(b), a.damping, b.damping, warmth) ||
          apart(a.stiffness.mean, b.stiffness.mean, a.stiffness, b.stiffness, 0.0);
 }
@@ -170,12 +170,12 @@ bool BaselineLearner::drifts() const {
 std::optional<DamperTemperature> BaselineLearner::temperature() const {
   const auto& [a, b] = halves_;
   if (!a.celsius || !b.celsius) return std::nullopt;
-  const double warmer = *b.celsius - *a.celsius, usual = square(DamperTemperature::kUsual);
+  const double warmer = *b.celsius - *a.celsius, usual = square(DamperTemperature::kPriorStddev);
   const double noise =
       a.varianceOfMean(a.damping) / square(a.damping.mean) + b.varianceOfMean(b.damping) / square(b.damping.mean);
   const double gain = usual * warmer / (usual * square(warmer) + noise);
   return DamperTemperature{(*a.celsius + *b.celsius) / 2.0, gain * std::log(b.damping.mean / a.damping.mean),
-                           DamperTemperature::kUsual * std::sqrt(1.0 - gain * warmer)};
+                           DamperTemperature::kPriorStddev * std::sqrt(1.0 - gain * warmer)};
 }
 
 Baseline BaselineLearner::result(Stamp to) const {

@@ -46,8 +46,8 @@ LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
   const Eigen::Vector2d weights = information * load_moves;
   LoadAlone load;
   load.log_mass = std::clamp(weights.dot(measured) / weights.dot(load_moves), range.first, range.second);
-  const Eigen::Vector2d left = measured - load.log_mass * load_moves;
-  load.distance = std::sqrt(std::max(left.dot(information * left), 0.0));  // of NaN, which is not known, NaN
+  const Eigen::Vector2d residual = measured - load.log_mass * load_moves;
+  load.distance = std::sqrt(std::max(residual.dot(information * residual), 0.0));  // of NaN, which is not known, NaN
   return load;
 }
 

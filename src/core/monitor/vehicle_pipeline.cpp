@@ -27,7 +27,7 @@ VehiclePipeline::VehiclePipeline(const std::vector<MonitorSettings>& settings, c
     : streams_(streams),
       sinks_(std::move(sinks)),
       monitor_(settings, sinks_.report, static_cast<int>(streams.channels.known_forces.size())),
-      early_(requiredOf(streams), kMostWaiting) {
+      first_readings_(requiredOf(streams), kMostWaiting) {
   if (settings.front().sample_period) start();
 }
 
@@ -46,19 +46,19 @@ void VehiclePipeline::start() {
 
 void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values) {
   if (is_refused_) return;
-  if (grid_ && early_.isEmpty()) {
+  if (grid_ && first_readings_.isEmpty()) {
     grid_->push(sensor, stamp, values);
     return;
   }
-  const EarlyReadings::Reading reading{sensor, stamp, {values, values + streams_.sensors[sensor].count}};
+  const FirstReadings::Reading reading{sensor, stamp, {values, values + streams_.sensors[sensor].count}};
   if (grid_) {  // a sink has thrown while they were replayed
-    early_.append(reading);
+    first_readings_.append(reading);
   } else {
-    const std::optional<double> period = early_.add(reading);
+    const std::optional<double> period = first_readings_.add(reading);
     if (!period) return;
     startOnce(*period);
   }
-  replayEarly();
+  replayFirstReadings();
 }
 
 // Settings that do not fit what was measured will not fit it at the next reading either: that is said once.
@@ -74,8 +74,8 @@ void VehiclePipeline::startOnce(double period) {
 }
 
 // A sink may throw; readings that come after those that it has seen wait for the next push().
-void VehiclePipeline::replayEarly() {
-  while (const auto reading = early_.next()) grid_->push(reading->stream, reading->stamp, reading->values);
+void VehiclePipeline::replayFirstReadings() {
+  while (const auto reading = first_readings_.next()) grid_->push(reading->stream, reading->stamp, reading->values);
 }
 
 void VehiclePipeline::finish() {
@@ -94,7 +94,7 @@ void VehiclePipeline::take(const VehicleSample& sample) {
 }
 
 RejectCounts VehiclePipeline::rejected(std::size_t sensor) const {
-  RejectCounts all = early_.rejected(sensor);
+  RejectCounts all = first_readings_.rejected(sensor);
   if (grid_) all += grid_->rejected(sensor);
   return all;
 }

@@ -86,13 +86,13 @@ class RowStart {
   std::optional<Start> with(const ForceEffect& effect) const {
     std::optional<Start> best;
     if (effect.lasts) return best;  // such a memory needs whole drives, not stretches
-    const double left = rows_.left();
+    const double unexplained = rows_.unexplained();
     for (const std::vector<double>& shapes : scanShapes(effect, scale_)) {
       Eigen::VectorXd column = forceAlong(effect, shapes, motion_);
       passLow(column);
       const auto part = rows_.project(column);
       if (!part) continue;
-      const double coefficient = part->coefficients[0], share = part->gain / left;
+      const double coefficient = part->coefficients[0], share = part->gain / unexplained;
       if (!(share > (best ? best->share : 0.0)) || (effect.positive && !(coefficient > 0.0))) continue;
       StrutModel model = fit_.model;
       model.damping_to_mass = part->common[0];

@@ -89,8 +89,8 @@ Screening::Screening(const Records& records, const HoldOut& held_out, const Mode
 
 ScreenedModel Screening::expect(const WeightedProjection::Columns& columns,
                                 const WeightedProjection::Part& part) const {
-  const Eigen::VectorXd left = rows_.target() - columns * part.coefficients - rows_.common() * part.common;
-  ScreenedModel screened{response_.fit().model, part.gain, split(left, response_.motion().ends)};
+  const Eigen::VectorXd residual = rows_.target() - columns * part.coefficients - rows_.common() * part.common;
+  ScreenedModel screened{response_.fit().model, part.gain, split(residual, response_.motion().ends)};
   StrutModel& model = screened.model;
   // A fit begins badly at a linear guess that is far away: b1 and b0 go half their size at most.
   const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };
@@ -167,12 +167,12 @@ double Screening::surfaceGain() const {
   Eigen::MatrixXd gram = columns.transpose() * weight.asDiagonal() * columns;
   gram.diagonal().array() += 1e-6 * gram.trace() / static_cast<double>(gram.rows());  // nodes that are never visited
   const Eigen::VectorXd solution = gram.llt().solve(columns.transpose() * weight.cwiseProduct(residual));
-  const Eigen::VectorXd left = residual - columns * solution;
+  const Eigen::VectorXd unexplained = residual - columns * solution;
   double before = 0.0, after = 0.0;
   for (Eigen::Index k = 0; k < rows; ++k) {
     if (weight[k] != 0.0) continue;
     before += square(residual[k]);
-    after += square(left[k]);
+    after += square(unexplained[k]);
   }
   return before > 0.0 ? std::max(0.0, 1.0 - after / before) : 0.0;
 }

@@ -20,11 +20,11 @@ std::optional<double> PeriodMeasurement::period() const {
   double slowest = 0.0;
   for (const Stream& stream : streams_) {
     if (stream.spacings.empty()) continue;  // not required
-    const Stamp usual = median(stream.spacings);
+    const Stamp middle = median(stream.spacings);
     Stamp sum{};
     int count = 0;
     for (const Stamp spacing : stream.spacings) {
-      if (2 * spacing <= usual || 2 * spacing >= 3 * usual) continue;
+      if (2 * spacing <= middle || 2 * spacing >= 3 * middle) continue;
       sum += spacing;
       ++count;
     }

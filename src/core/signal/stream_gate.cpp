@@ -9,7 +9,7 @@ void RangeEnd::add(double reading, const ReadingStatistics& all, double span) {
   const bool far_out = std::abs(reading - all.mean()) > kSignalTuning.far_out * all.deviation();
   const bool fine = all.finestStep() < kSignalTuning.fine * span;
   // A sensor that reads 0 is dead: no range ends there.
-  if (all.areUsual() && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kSignalTuning.flat_tops))
+  if (all.areEnough() && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kSignalTuning.flat_tops))
     limit_ = reading;
 }
 
@@ -29,8 +29,8 @@ void RangeEnd::count(double reading, double band) {
 }
 
 void RangeEnd::countFlatTops(double reading, const ReadingStatistics& all) {
-  const double usual_run = 1.0 / std::max(1.0 - all.repeated(), 1e-6);
-  const bool flat = reading == extreme_ && all.equalInARow() + 0.5 > kSignalTuning.flat_top * usual_run;
+  const double mean_run = 1.0 / std::max(1.0 - all.repeated(), 1e-6);
+  const bool flat = reading == extreme_ && all.equalInARow() + 0.5 > kSignalTuning.flat_top * mean_run;
   if (flat && !in_flat_top_) flat_tops_ = std::min(flat_tops_ + 1, kSignalTuning.flat_tops);
   in_flat_top_ = flat;
 }
@@ -83,8 +83,8 @@ bool StreamGate::isAbsurd(double acceleration) {
   const double size = std::abs(acceleration);
   const double least = is_force_ ? kSignalTuning.most_in_any_unit : kSignalTuning.most_of_a_vehicle;
   const double most =
-      std::clamp(kSignalTuning.most_times_usual * usual_size_.median(), least, kSignalTuning.most_in_any_unit);
-  usual_size_.add(size);
+      std::clamp(kSignalTuning.absurd_over_median * median_size_.median(), least, kSignalTuning.most_in_any_unit);
+  median_size_.add(size);
   believed_ = size > most ? 0 : std::min(believed_ + 1, kSignalTuning.believed_again);
   return believed_ < kSignalTuning.believed_again;
 }

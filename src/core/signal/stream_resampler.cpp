@@ -110,7 +110,7 @@ Taps makeTaps() {
 
 // @return periods of the stream from one reading to the next; 0 if its period is not known yet.
 double periodsBetween(const SensorReading& before, const SensorReading& after) {
-  return after.usual_spacing > 0.0 ? toSeconds(after.taken - before.taken) / after.usual_spacing : 0.0;
+  return after.stream_period > 0.0 ? toSeconds(after.taken - before.taken) / after.stream_period : 0.0;
 }
 
 // @return the same in whole periods; 0 if they are not whole.
@@ -151,15 +151,15 @@ StreamResampler::Coverage StreamResampler::advance(Stamp t, ReadingQueue& waitin
 
 bool StreamResampler::followsAfterGap(const SensorReading& reading) const {
   const double period = toSeconds(period_);
-  const double usual = std::clamp(reading.usual_spacing, period, kSignalTuning.slowest * period);
-  return toSeconds(reading.taken - last_.taken) > kSignalTuning.longest_bridge * usual;
+  const double spacing = std::clamp(reading.stream_period, period, kSignalTuning.slowest * period);
+  return toSeconds(reading.taken - last_.taken) > kSignalTuning.longest_bridge * spacing;
 }
 
 // Predicts what was lost before the next reading. @return false: readings by which it is predicted are to come.
 bool StreamResampler::fillIn(const ReadingQueue& waiting) {
   const long farthest = LostReadings::kWindow - LostReadings::kReach;  // periods after the last reading
   // Of a slower stream the readings after the loss would come too late for those that wait for it.
-  const bool is_slow = static_cast<double>(farthest) * waiting.front().usual_spacing > toSeconds(kMostOptionalLag);
+  const bool is_slow = static_cast<double>(farthest) * waiting.front().stream_period > toSeconds(kMostOptionalLag);
   if (!first_ || is_slow || !lost_readings_.isReady()) return true;
   const long periods = wholePeriodsBetween(last_, waiting.front());
   if (periods < 2 || periods > LostReadings::kMost + 1) return true;

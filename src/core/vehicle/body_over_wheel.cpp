@@ -29,7 +29,7 @@ struct Term {
 
 struct LinearFit {
   Eigen::VectorXd parameters;
-  double left = 1.0;  ///< share of the output that is not explained
+  double unexplained = 1.0;  ///< share of the output that is not explained
 };
 
 /// Least squares of one IMU's signal by terms with real parameters, in the frequency domain.
@@ -65,7 +65,7 @@ class SpectralFit {
     LinearFit fit;
     fit.parameters = scale.asDiagonal() * solveSymmetric(scale.asDiagonal() * normal * scale.asDiagonal(),
                                                          Eigen::MatrixXd(scale.cwiseProduct(right)));
-    fit.left = 1.0 - fit.parameters.dot(right) / product(output, output);
+    fit.unexplained = 1.0 - fit.parameters.dot(right) / product(output, output);
     return fit;
   }
 
@@ -109,18 +109,18 @@ class Pairing {
     LinearFit nearest;
     for (double tried = -kFarthestDelay; tried < kFarthestDelay + kDelayStep / 2.0; tried += kDelayStep) {
       const LinearFit found = fit(signal, wheels, tried);
-      if (!(found.left < nearest.left)) continue;
+      if (!(found.unexplained < nearest.unexplained)) continue;
       nearest = found;
       best.delay = tried;
     }
     if (nearest.parameters.size() == 0) return best;  // a signal that is 0
-    const double alone = fit(signal, {}, best.delay).left;
-    best.explained = 1.0 - nearest.left / alone;
+    const double alone = fit(signal, {}, best.delay).unexplained;
+    best.explained = 1.0 - nearest.unexplained / alone;
     for (std::size_t j = 0; j < wheels.size(); ++j) {
       best.damping[j] = nearest.parameters[2 + 2 * j];
       std::vector<std::size_t> others = wheels;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-      best.worth[j] = (fit(signal, others, best.delay).left - nearest.left) / alone;
+      best.worth[j] = (fit(signal, others, best.delay).unexplained - nearest.unexplained) / alone;
     }
     return best;
   }
@@ -237,7 +237,7 @@ bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairi
   pair.delay += found.parameters[0];
   pair.damping_to_mass = found.parameters[own];
   pair.stiffness_to_mass = found.parameters[own + 1];
-  pair.explained = 1.0 - found.left;
+  pair.explained = 1.0 - found.unexplained;
   return pair.damping_to_mass > 0.0 && pair.stiffness_to_mass > 0.0;
 }
 

@@ -43,15 +43,15 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
     gravity += part / kVehicleTuning.fewest_parts;
   }
   if (!isGravity(gravity.norm())) return;
-  if (std::abs(gravity.norm() - kStandardGravity) > kUsualOffset) gain_ = gravity.norm() / kStandardGravity;
+  if (std::abs(gravity.norm() - kStandardGravity) > kLargestOffset) gain_ = gravity.norm() / kStandardGravity;
   lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
   is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
-    return angleBetween(part, gravity) <= 0.5 * kVehicleTuning.usual_lean;
+    return angleBetween(part, gravity) <= 0.5 * kVehicleTuning.largest_lean;
   });
   if (isTurned()) mount_ = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-bool BodyLevel::isTurned() const { return lean_ > kVehicleTuning.usual_lean; }
+bool BodyLevel::isTurned() const { return lean_ > kVehicleTuning.largest_lean; }
 
 void MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   if (!acceleration.allFinite()) return;
@@ -78,17 +78,17 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   return found;
 }
 
-// From what rounds to kVehicleTuning.usual_lean on.
+// From what rounds to kVehicleTuning.largest_lean on.
 bool MountClaim::Finding::isLeaning() const {
-  return lean > kVehicleTuning.usual_lean - 0.5 / 180.0 * M_PI + kProven * lean_stddev;
+  return lean > kVehicleTuning.largest_lean - 0.5 / 180.0 * M_PI + kProven * lean_stddev;
 }
 
 bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kVehicleTuning.other_axis; }
 
 bool MountClaim::Finding::leansAs(const Finding& other) const {
-  return std::abs(lean - other.lean) < kVehicleTuning.usual_lean && lean < kVehicleTuning.other_axis;
+  return std::abs(lean - other.lean) < kVehicleTuning.largest_lean && lean < kVehicleTuning.other_axis;
 }
 
-bool MountClaim::Finding::isWrongSize() const { return std::abs(size - kStandardGravity) > kUsualOffset; }
+bool MountClaim::Finding::isWrongSize() const { return std::abs(size - kStandardGravity) > kLargestOffset; }
 
 }  // namespace suspension_health_monitor

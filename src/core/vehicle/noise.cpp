@@ -107,36 +107,36 @@ StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {
 namespace {
 
 /// What a strut's free run leaves, sample by sample of a drive.
-struct Left {
+struct Remainder {
   Eigen::VectorXd values;          ///< 0 where nothing is known
   std::vector<Eigen::Index> room;  ///< known ones to either side and this one; 0: not known itself
 };
 
-std::optional<Left> leftBy(const StrutModel& model, const Drive& drive, double period) {
+std::optional<Remainder> remainderBy(const StrutModel& model, const Drive& drive, double period) {
   const std::deque<DriveRecord> records = makeRecords({drive}, period, model);
   const auto initial = estimateInitialStates(pointersTo(records), model);
   if (!initial) return std::nullopt;
-  Left left{Eigen::VectorXd::Zero(drive.samples.size()), std::vector<Eigen::Index>(drive.samples.size(), 0)};
+  Remainder remainder{Eigen::VectorXd::Zero(drive.samples.size()), std::vector<Eigen::Index>(drive.samples.size(), 0)};
   std::vector<double> predicted;
   std::size_t at = 0, s = 0;
   for (const DriveSegment* segment : segmentsOf(pointersTo(records))) {
     if (!runFree(model, *segment, (*initial)[s++], predicted)) return std::nullopt;
     while (drive.samples[at].stamp != segment->stamps.front()) ++at;
     for (std::size_t k = 0; k < segment->size(); ++k, ++at) {
-      left.values[at] = segment->sprung[k] - predicted[k];
-      left.room[at] = 1 + std::min(k, segment->size() - 1 - k);
+      remainder.values[at] = segment->sprung[k] - predicted[k];
+      remainder.room[at] = 1 + std::min(k, segment->size() - 1 - k);
     }
   }
-  return left;
+  return remainder;
 }
 
 /// Of all struts of a drive; empty if a model runs away.
-std::vector<Left> leftOf(const StrutDrives& drive, double period, const std::vector<StrutModel>& models) {
-  std::vector<Left> all;
+std::vector<Remainder> remaindersOf(const StrutDrives& drive, double period, const std::vector<StrutModel>& models) {
+  std::vector<Remainder> all;
   for (std::size_t i = 0; i < drive.size(); ++i) {
-    std::optional<Left> left = leftBy(models[i], drive[i], period);
-    if (!left) return {};
-    all.push_back(std::move(*left));
+    std::optional<Remainder> remainder = remainderBy(models[i], drive[i], period);
+    if (!remainder) return {};
+    all.push_back(std::move(*remainder));
   }
   return all;
 }
@@ -144,7 +144,7 @@ std::vector<Left> leftOf(const StrutDrives& drive, double period, const std::vec
 /// E[a(k) b(k + lag)] by a, b and lag, from -most to most.
 using Covariances = std::vector<std::vector<Eigen::VectorXd>>;
 
-Covariances covariancesOf(const std::vector<Left>& noise, Eigen::Index most) {
+Covariances covariancesOf(const std::vector<Remainder>& noise, Eigen::Index most) {
   const Eigen::Index size = noise.front().values.size(), inner = size - 2 * most;
   Covariances covariances(noise.size(), std::vector<Eigen::VectorXd>(noise.size(), Eigen::VectorXd(2 * most + 1)));
   for (std::size_t a = 0; a < noise.size(); ++a)
@@ -177,7 +177,7 @@ Weights weightsOf(std::size_t strut, const Covariances& covariances, Eigen::Inde
 }
 
 /// @return the samples of which all is known that the others tell of their noise, without it.
-Drive without(const Weights& weights, std::size_t strut, const Drive& drive, const std::vector<Left>& left) {
+Drive without(const Weights& weights, std::size_t strut, const Drive& drive, const std::vector<Remainder>& remainder) {
   const Eigen::Index reach = weights.rows() / 2;
   Drive cleaned;
   cleaned.low_pass.taps = drive.low_pass.taps;
@@ -185,10 +185,10 @@ Drive without(const Weights& weights, std::size_t strut, const Drive& drive, con
     double predicted = 0.0;
     bool is_known = true;
     Eigen::Index column = 0;
-    for (std::size_t j = 0; j < left.size() && is_known; ++j) {
+    for (std::size_t j = 0; j < remainder.size() && is_known; ++j) {
       if (j == strut) continue;
-      is_known = left[j].room[k] > reach;
-      if (is_known) predicted += weights.col(column++).dot(left[j].values.segment(k - reach, weights.rows()));
+      is_known = remainder[j].room[k] > reach;
+      if (is_known) predicted += weights.col(column++).dot(remainder[j].values.segment(k - reach, weights.rows()));
     }
     if (!is_known) continue;
     cleaned.samples.push_back(drive.samples[k]);
@@ -204,10 +204,10 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
                      const std::vector<StrutModel>& models) {
   std::vector<StrutModel> linear;
   for (const StrutModel& model : models) linear.push_back({model.damping_to_mass, model.stiffness_to_mass, {}, {}});
-  const std::vector<Left> of_noise = leftOf(noise, period, linear);
-  std::vector<std::vector<Left>> of_drives;
-  for (const StrutDrives& drive : drives) of_drives.push_back(leftOf(drive, period, models));
-  const auto runs_away = [](const std::vector<Left>& left) { return left.empty(); };
+  const std::vector<Remainder> of_noise = remaindersOf(noise, period, linear);
+  std::vector<std::vector<Remainder>> of_drives;
+  for (const StrutDrives& drive : drives) of_drives.push_back(remaindersOf(drive, period, models));
+  const auto runs_away = [](const std::vector<Remainder>& remainder) { return remainder.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
   const Eigen::Index reach = std::lround(kVehicleTuning.noise_reach / period);
   const Covariances covariances = covariancesOf(of_noise, 2 * reach);

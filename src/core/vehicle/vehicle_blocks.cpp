@@ -48,12 +48,12 @@ void VehicleBlocks::begin(double length) {
   spectra_.emplace(band, vehicle_, effects_);
   gyro_ = {};
   friction_.assign(size(), SlidingFriction::ofBlocks(length));
-  // Until there is an estimate: a usual strut in the middle of the bounces that this length is for.
+  // Until there is an estimate: a strut with a damping ratio of 0.3, in the middle of the bounces of this length.
   const double bounce =
       2.0 * M_PI *
-      std::sqrt(kVehicleTuning.least_upper_edge / (1.0 + kVehicleTuning.usual_damping) * kVehicleTuning.most_periods) /
+      std::sqrt(kVehicleTuning.least_upper_edge / (1.0 + kVehicleTuning.start_damping) * kVehicleTuning.most_periods) /
       length;
-  for (SlidingFriction& each : friction_) each.setStrut(kVehicleTuning.usual_damping * bounce, bounce * bounce, 0.0);
+  for (SlidingFriction& each : friction_) each.setStrut(kVehicleTuning.start_damping * bounce, bounce * bounce, 0.0);
   for (std::size_t i = 0; i < size(); ++i) {
     estimators_.emplace_back(band, columns_, options_);
     if (before.estimators.empty() || !before.estimators[i].hasTheta()) continue;

@@ -110,11 +110,11 @@ VehicleClaims::Rows VehicleClaims::fit(const Hypothesis& hypothesis, double size
 VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
   VehicleMistake found{hypothesis.kind, hypothesis.struts};
   const std::vector<double>& sizes = hypothesis.sizes;
-  std::vector<double> left;
-  for (const double size : sizes) left.push_back(fit(hypothesis, size).unexplained);
-  const auto best = std::min_element(left.begin(), left.end()) - left.begin();
+  std::vector<double> unexplained;
+  for (const double size : sizes) unexplained.push_back(fit(hypothesis, size).unexplained);
+  const auto best = std::min_element(unexplained.begin(), unexplained.end()) - unexplained.begin();
   found.size = sizes[best];
-  found.unexplained = left[best];
+  found.unexplained = unexplained[best];
   if (sizes.size() == 1) return found;
   double step = sizes[1] - sizes[0], curvature = 0.0;
   for (int i = 0; i < kVehicleTuning.refinements; ++i, step *= 0.5) {
@@ -215,20 +215,21 @@ void VehicleClaims::judgeAsFiled() {
 
 void VehicleClaims::judge(const Hypothesis& hypothesis) {
   VehicleMistake other = attempt(hypothesis);
-  const double slack = kVehicleTuning.noise_known_to * noiseShare() * noise_, left = other.unexplained;
+  const double slack = kVehicleTuning.noise_known_to * noiseShare() * noise_, unexplained = other.unexplained;
   const bool is_by_links = other.isDelay() && std::abs(other.size) < kBlockTuning.least_delay;
-  if (left < least_ && left + slack < kMajority * (filed_.unexplained + slack)) {
+  if (unexplained < least_ && unexplained + slack < kMajority * (filed_.unexplained + slack)) {
     const Eigen::ArrayXXd change = (fit(hypothesis, other.size).own / filed_.own - 1.0).abs();
     if (is_by_links) {
       model_errors_ = model_errors_.max(change);
     } else if (change.maxCoeff() > kLeastDifference) {
-      least_ = left;
+      least_ = unexplained;
       other.unexplained = found_.unexplained;
       found_ = other;
     }
   }
   // A delay of all tops that links make would hide other mistakes: they are looked for in what it leaves.
-  if (hypothesis.kind != allTops() || !is_by_links || found_.kind != Kind::kNone || left > filed_.unexplained) return;
+  if (hypothesis.kind != allTops() || !is_by_links || found_.kind != Kind::kNone || unexplained > filed_.unexplained)
+    return;
   late_tops_ = other.size;
   in_step_ = moments(asFiled().delays);
   filed_ = fit(asFiled(), in_step_);

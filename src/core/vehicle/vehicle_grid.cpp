@@ -139,7 +139,7 @@ bool VehicleGrid::hasHeardNoise() const {
 
 SensorNoise VehicleGrid::noise() const {
   return noiseOfStrutTops(vehicle_, period_,
-                          hasHeardNoise() ? deviation(3) / deviation(0) : kVehicleTuning.usual_gyro_noise);
+                          hasHeardNoise() ? deviation(3) / deviation(0) : kVehicleTuning.gyro_noise_ratio);
 }
 
 void VehicleGrid::describe(VehicleDrive& drive) const {

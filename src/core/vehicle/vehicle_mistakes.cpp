@@ -39,7 +39,7 @@ Eigen::MatrixXd motionsOf(const StrutPlaces& places) {
 }  // namespace
 
 bool VehicleMistake::isDelay() const {
-  return kind == Kind::kLateWheel || kind == Kind::kLateTop || kind == Kind::kLateTops || kind == Kind::kLateBody;
+  return kind == Kind::kWheelDelay || kind == Kind::kTopDelay || kind == Kind::kTopsDelay || kind == Kind::kBodyDelay;
 }
 
 bool VehicleMistake::isContradiction() const {
@@ -121,10 +121,10 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
 
 void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
-    all.push_back({Kind::kLateWheel, {i, i}, kDelays, [i](double size, Mapping& m) { m.delays[i] = size; }});
+    all.push_back({Kind::kWheelDelay, {i, i}, kDelays, [i](double size, Mapping& m) { m.delays[i] = size; }});
     if (!isByBody())
       all.push_back(
-          {Kind::kLateTop, {i, i}, kDelays, [i, n = n_](double size, Mapping& m) { m.delays[n + i] = size; }});
+          {Kind::kTopDelay, {i, i}, kDelays, [i, n = n_](double size, Mapping& m) { m.delays[n + i] = size; }});
   }
   all.push_back({allTops(), {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
 }

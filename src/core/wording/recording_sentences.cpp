@@ -81,7 +81,7 @@ std::string describeNoPeriod(const std::string& where, std::size_t count) {
 
 std::string describeNoStart(const std::string& where) {
   return "the sample period cannot be measured: too few readings with increasing stamps " + where + " (" +
-         std::to_string(EarlyReadings::kSpacings + 1) + " of each are enough)";
+         std::to_string(FirstReadings::kSpacings + 1) + " of each are enough)";
 }
 
 std::string describeNoRow(const SuspensionMonitor& monitor, const StreamGrid& grid, const RejectCounts& rejected) {

@@ -73,10 +73,10 @@ std::string describe(const VehicleMistake& mistake, const std::vector<std::strin
     case Kind::kSideOfOne: return position("y", of_first);
     case Kind::kShiftAhead: return shifted("x");
     case Kind::kShiftSide: return shifted("y");
-    case Kind::kLateWheel: return late("the wheel of " + first);
-    case Kind::kLateTop: return late("the sprung IMU of " + first);
-    case Kind::kLateTops: return late("all sprung IMUs", ", or those of all wheels as much " + other + ",");
-    case Kind::kLateBody: return late("the body's IMU");
+    case Kind::kWheelDelay: return late("the wheel of " + first);
+    case Kind::kTopDelay: return late("the sprung IMU of " + first);
+    case Kind::kTopsDelay: return late("all sprung IMUs", ", or those of all wheels as much " + other + ",");
+    case Kind::kBodyDelay: return late("the body's IMU");
     case Kind::kDeadGyro:
       return "the body's IMU tells of no pitch or no roll, though the wheels differ: dead gyro, wrong axis, or wrong "
              "positions of the struts";

@@ -15,7 +15,7 @@ inline constexpr double kStandardGravity = 9.80665;  ///< standard [m/s^2]
 /// Tolerance of a mean about 1, and, as a share, about gravity: offsets and an inclination of 30 degrees move it so
 /// far.
 inline constexpr double kGravityTolerance = 0.15;
-inline constexpr double kUsualOffset = 0.8;  ///< of cheap accelerometers at most [m/s^2]
+inline constexpr double kLargestOffset = 0.8;  ///< of cheap accelerometers at most [m/s^2]
 
 /// @return true if a sensor whose mean is that of gravity reads in g: no usual offset makes 1 of nothing.
 inline bool readsInG(double mean) { return std::abs(mean - 1.0) < kGravityTolerance; }

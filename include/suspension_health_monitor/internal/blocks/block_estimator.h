@@ -135,7 +135,7 @@ class BlockEstimator {
   void lookAtSensors();
   bool contradictsSlow();
   bool contradictsShorter(const WindowEstimate& estimate);
-  bool leavesUnusual(int blocks);
+  bool leavesMoreThanMedian(int blocks);
   void retire(const StrutBlock& block);
   void retireAll();
   void refine(int window, const BlockPrior& prior);
@@ -150,7 +150,7 @@ class BlockEstimator {
   int updates_ = 0, waits_ = 0;       // blocks until another start
   BlockPrior first_, slow_, scaled_;  // of nothing but the options; with what all blocks tell of slow parameters; now
   BlockVector factor_, factor_stddev_;
-  BlockWeights weights_;  // of all blocks; with what is usual
+  BlockWeights weights_;  // of all blocks; with their median
   double scatter_ = 1.0;
   DriveFit drive_;  // the blocks that are kept no longer
   BlockVector theta_;

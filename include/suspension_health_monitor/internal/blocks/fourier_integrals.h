@@ -102,8 +102,8 @@ class FourierIntegrals {
   Reading before_, last_, held_;       // the two newest that are taken in; the next one
   std::vector<Reading> interpolated_;  // in place of lost ones
   int lost_ = 0;                       // readings before held_; 0: none is held
-  int spacings_ = 0;                   // without a gap, as far as they count for usual_
-  double usual_ = 0.0;                 // spacing: the mean of the newest ones [s]
+  int spacings_ = 0;                   // without a gap, as far as they count for mean_spacing_
+  double mean_spacing_ = 0.0;          // spacing: the mean of the newest ones [s]
   std::vector<double> first_;          // reading
   bool is_empty_ = true;               // there was none
   double spacing_ = 0.0;               // before the last one, as far as it is in the open half block

@@ -21,15 +21,15 @@ struct BlockTuning {
   double share_stddev = 0.29;  ///< likewise: 1 / sqrt(12)
   /// of a block: a gap costs as much of its information, and the rule across it is noise that is measured
   double longest_spacing = 1.0 / 32.0;
-  int most_lost = 3;   ///< readings in a row that are interpolated: as many as the grid of LS and LA bridges
-  int usual_of = 32;   ///< spacings, whose mean is the usual one: one that is lost moves it by no more than a thirtieth
-  double full = 10.0;  ///< times the usual power, up to which a block counts in full
-  int weightings = 3;  ///< of the blocks; and with each of them of the noise and parameters
+  int most_lost = 3;          ///< readings in a row that are interpolated: as many as the grid of LS and LA bridges
+  int spacings_of_mean = 32;  ///< spacings, whose mean is taken: one that is lost moves it by no more than a thirtieth
+  double full = 10.0;         ///< times the median power, up to which a block counts in full
+  int weightings = 3;         ///< of the blocks; and with each of them of the noise and parameters
   double least_friction = 0.002;  ///< of the rms of the wheel: then the direction is that of the rate, nearly
   /// power of the body over that of its wheel: 1 + 1 / (4 zeta^2) of a strut with zeta = 0.115
   double most_amplified = 20.0;
-  double unusual = 1.5;  ///< power that a fit leaves of a block, over the usual: that of its 39 bins varies by a sixth
-  double lost = 0.3;     ///< relative standard deviation from which there is no estimate to linearise at
+  double excess = 1.5;  ///< power that a fit leaves of a block, over the median: that of its 39 bins varies by a sixth
+  double lost = 0.3;    ///< relative standard deviation from which there is no estimate to linearise at
   double says_nothing = 0.5;  ///< relative standard deviation of blocks that say nothing of the strut
   double held = 1e-9;        ///< standard deviation of a delay [s] or gain that is held at none, also without any noise
   double stale = 0.02;       ///< relative change of b1 or b0 since the linearisation

@@ -71,13 +71,13 @@ struct WindowEstimate {
 struct BlockWeights {
   BandVector noise;        ///< s2, by band
   BandVector share_scale;  ///< s2 over the power of the wheel's motion: the scale of the column of r
-  BandVector usual;        ///< power of e per bin of usual blocks, by band; empty: not known yet
+  BandVector median;       ///< of the blocks: power of e per bin, by band; empty: not known yet
 
-  /// @return power of e of a block over that of usual blocks, mean over the bands; what is usual has to be known.
+  /// @return power of e of a block over the median, mean over the bands; the median has to be known.
   /// @param power  of e per bin, by band.
-  double timesUsual(const Eigen::Ref<const Eigen::ArrayXd>& power) const { return (power / usual.array()).mean(); }
+  double overMedian(const Eigen::Ref<const Eigen::ArrayXd>& power) const { return (power / median.array()).mean(); }
   /// @param power  of e per bin of a block, by band.
-  /// @return 1, or less for a block that is unusually noisy.
+  /// @return 1, or less for a block that is much noisier than the median.
   double of(const Eigen::Ref<const Eigen::ArrayXd>& power) const;
 };
 
@@ -118,10 +118,10 @@ struct WheelNoise {
 /// The power s2 of e in each band is measured: the mean of the window's cells (block times band) at the estimate. It
 /// weights the bins, so that what the strut does not explain, whatever it is, counts as little as it should:
 ///     theta = (sum Z'R / s2 + P)^-1 (sum Z'(e + R theta_at) / s2 + P mean),  P = diag(1 / prior variance).
-/// A block that is unusual(ly noisy) counts less (BlockWeights). Covariance: bins under a Hann window are correlated,
-/// and so are blocks that overlap by half (kBinCorrelation, kBlockCorrelation), times the factor by which the scores of
-/// cells scatter more than that. Source: Pintelon, Schoukens (2012), ch. 9 and 11; sandwich covariance after P. J.
-/// Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967).
+/// A block that is much noisier than the median counts less (BlockWeights). Covariance: bins under a Hann window are
+/// correlated, and so are blocks that overlap by half (kBinCorrelation, kBlockCorrelation), times the factor by which
+/// the scores of cells scatter more than that. Source: Pintelon, Schoukens (2012), ch. 9 and 11; sandwich covariance
+/// after P. J. Huber, The behavior of maximum likelihood estimates under nonstandard conditions (1967).
 ///
 /// Noise of the neighbours' wheels is in their regressors and in all instruments, and counts as information N of the
 /// sum I. It draws coefficients to those of struts that move like them by I^-1 N theta: nothing, unless the struts move
@@ -140,10 +140,10 @@ class WindowFit {
 
   /// @param blocks  linearised, the newest last.
   /// @param start  of the iteration over weights.
-  /// @param usual  power of e per bin of each band of usual blocks; empty: not known yet.
+  /// @param median  of the blocks: power of e per bin of each band; empty: not known yet.
   /// @param least_inflation  that is known from other windows.
   void fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
-           const BandVector& usual, double least_inflation, WindowEstimate& result);
+           const BandVector& median, double least_inflation, WindowEstimate& result);
 
   /// @param each  by band; empty: a strut alone.
   void setWheelNoise(const std::vector<WheelNoise>& each) { wheel_noise_ = each; }
@@ -151,7 +151,7 @@ class WindowFit {
   /// @return power of e per bin, bands by blocks, of the newest fit.
   auto power() const { return power_.leftCols(blocks_); }
 
-  /// @return those of the newest fit, without what is usual.
+  /// @return those of the newest fit, without the median.
   const BlockWeights& weights() const { return weights_; }
 
   /// @return median over blocks that share no reading of the squared distance between their own b1, b0, over what noise

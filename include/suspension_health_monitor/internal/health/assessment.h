@@ -84,7 +84,7 @@ class HealthAssessment {
   void noteLoad(const StrutChange& change);
   LoadDoubt doubtOfLoad(const StrutChange& change) const;
   void judge(const StrutChange& change);
-  void warnEarly(const StrutChange& change, double window);
+  void updateEarlyWarning(const StrutChange& change, double window);
 
   HealthOptions options_;
   LevelConfirmation confirmation_;

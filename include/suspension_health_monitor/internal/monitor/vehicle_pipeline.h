@@ -78,13 +78,13 @@ class VehiclePipeline {
  private:
   void start();
   void startOnce(double period);
-  void replayEarly();
+  void replayFirstReadings();
   void take(const VehicleSample& sample);
 
   VehicleStreams streams_;
   Sinks sinks_;
   VehicleMonitor monitor_;
-  EarlyReadings early_;              // by sensor
+  FirstReadings first_readings_;     // by sensor
   bool is_refused_ = false;          // the settings do not fit the sample period that was measured
   std::optional<VehicleGrid> grid_;  // once the sample period is known
   std::optional<TyreTracker> tyre_;

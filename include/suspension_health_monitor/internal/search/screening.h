@@ -32,7 +32,7 @@ class WeightedProjection {
   std::optional<Part> project(const Columns& columns) const;
 
   /// @return what the model's own columns leave of the weighted sum of squares.
-  double left() const { return weight_.dot(target_.cwiseAbs2()) - own_.dot(gram_.solve(own_)); }
+  double unexplained() const { return weight_.dot(target_.cwiseAbs2()) - own_.dot(gram_.solve(own_)); }
 
   const Eigen::MatrixXd& common() const { return common_; }
   const Eigen::VectorXd& weight() const { return weight_; }

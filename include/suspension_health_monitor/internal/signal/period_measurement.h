@@ -48,7 +48,7 @@ class PeriodMeasurement {
 };
 
 /// The first readings of several streams, which wait until their stamps have told the sampling time.
-class EarlyReadings {
+class FirstReadings {
  public:
   static constexpr std::size_t kSpacings = 50;  ///< of each required stream, to tell the sampling time
 
@@ -60,7 +60,7 @@ class EarlyReadings {
 
   /// @param is_required  by stream; one at least.
   /// @param most_per_stream  readings that may wait of each required stream: more, and one of them is silent.
-  EarlyReadings(const std::vector<bool>& is_required, std::size_t most_per_stream)
+  FirstReadings(const std::vector<bool>& is_required, std::size_t most_per_stream)
       : is_required_(is_required), measurement_(kSpacings, is_required), rejected_(is_required.size()) {
     for (const bool required : is_required) most_ += required ? most_per_stream : 0;
   }

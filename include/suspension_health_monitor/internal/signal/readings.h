@@ -31,7 +31,7 @@ inline Continuity continuity(Stamp spacing, Stamp period) {
 enum class RejectReason : std::size_t {
   kNotMeasured,     ///< the message says that it carries no acceleration, or no angular rate (covariance -1)
   kNotFinite,       ///< NaN, infinite, or too large to be computed with (isUsable())
-  kAbsurd,          ///< more than 1000 m/s^2 and a hundred times what this sensor usually reads
+  kAbsurd,          ///< more than 1000 m/s^2 and a hundred times the median of this sensor
   kZeroStamp,       ///< stamp 0 in a series that has stamps
   kRepeatedStamp,   ///< same stamp as the reading before
   kTimeWentBack,    ///< older than the reading before; a jump far back starts a new series
@@ -73,7 +73,7 @@ struct SensorReading {
   Stamp taken{};               ///< when it was taken, by StreamClock
   double value = 0.0;          ///< in the stream's unit
   bool still = false;          ///< StreamGate::isStill()
-  double usual_spacing = 0.0;  ///< StreamClock::period() of its stream by then [s]; 0: not known yet
+  double stream_period = 0.0;  ///< StreamClock::period() of its stream by then [s]; 0: not known yet
 };
 
 inline constexpr std::size_t kMostWaiting = 4096;  ///< readings of one stream for those of another

@@ -26,8 +26,8 @@ class ReadingStatistics {
   double finestStep() const { return finest_step_; }      ///< smallest step other than 0 from one reading to the next
   double repeated() const { return repeated_.mean(); }    ///< share of readings that equal the one before, in [0, 1]
 
-  /// @return true if they are enough to tell what is usual.
-  bool areUsual() const { return std::min(mean_.weight(), repeated_.weight()) >= kSignalTuning.fewest_for_usual; }
+  /// @return true if they are enough to tell mean and spread.
+  bool areEnough() const { return std::min(mean_.weight(), repeated_.weight()) >= kSignalTuning.fewest_for_means; }
 
  private:
   std::optional<double> last_;
@@ -72,17 +72,17 @@ class RangeEnd {
   bool in_flat_top_ = false;
 };
 
-/// How large a sensor's readings usually are: their running median.
+/// Running median of the size of a sensor's readings.
 ///
 /// It is followed on a logarithmic scale by steps of one size, up for a reading above it and down for one below, so
 /// that 1e300 moves it as little as the next larger reading. Readings that are wrong for a while move it by what half
-/// of the readings of that time would; if they stay so, as where a sensor reads in another unit from now on, they
-/// become the usual ones.
+/// of the readings of that time would; if they stay so, as where a sensor reads in another unit from now on, the
+/// median becomes theirs.
 /// Cost per reading: O(1), no allocation.
-class UsualSize {
+class RunningMedian {
  public:
   /// @param period  from one reading to the next, above 0 [s].
-  explicit UsualSize(double period) : slowest_step_(period / kSignalTuning.fold_time) {}
+  explicit RunningMedian(double period) : slowest_step_(period / kSignalTuning.fold_time) {}
 
   /// @param size  of the next reading, finite and not negative.
   void add(double size) {
@@ -109,8 +109,8 @@ class UsualSize {
 /// sensor has ever read, of a sensor that resolves far finer (RangeEnd). From then on every reading at that value is
 /// kept out, until a reading beyond it shows that it was no limit.
 /// Absurd is what no vehicle survives, more than kMostOfAVehicle, unless the sensor reads like that: a hundred times
-/// its usual size passes, for sensors that read in another unit. So nothing behind the gate meets a reading of 1e20.
-/// A force may have any usual size, rest and stay at an end of its range: it is absurd above kMostInAnyUnit alone.
+/// its median size passes, for sensors that read in another unit. So nothing behind the gate meets a reading of 1e20.
+/// A force may have any median size, rest and stay at an end of its range: it is absurd above kMostInAnyUnit alone.
 /// Cost per reading: O(1), no allocation.
 class StreamGate {
  public:
@@ -118,7 +118,7 @@ class StreamGate {
   ///                or a bag that loops, not a message that was overtaken.
   /// @param is_force  not an acceleration.
   explicit StreamGate(Stamp period, bool is_force = false)
-      : longest_overtaking_(50 * period), is_force_(is_force), usual_size_(toSeconds(period)) {}
+      : longest_overtaking_(50 * period), is_force_(is_force), median_size_(toSeconds(period)) {}
 
   enum class Verdict {
     kPasses,
@@ -158,7 +158,7 @@ class StreamGate {
   bool is_force_;
   std::optional<Stamp> last_;
   int believed_ = kSignalTuning.believed_again;  // readings in a row that are not absurd, up to that
-  UsualSize usual_size_;                         // |acceleration|, of all that are numbers
+  RunningMedian median_size_;                    // |acceleration|, of all that are numbers
   ReadingStatistics statistics_;                 // of all readings that passed, the clipped ones included
   RangeEnd upper_{1.0}, lower_{-1.0};            // likewise
   RejectCounts rejected_;

@@ -8,22 +8,22 @@ namespace suspension_health_monitor {
 struct SignalTuning {
   // Readings that cannot be true: StreamGate.
   int stuck = 20;  ///< equal readings in a row of a dead sensor; fewer occur where the resolution is coarse
-  double fewest_for_usual = 100.0;  ///< readings that tell what a sensor usually reads
+  double fewest_for_means = 100.0;  ///< readings that tell mean and spread of a sensor
   int flat_top = 3;                 ///< equal readings in a row at the end of a range; a sine has two
   int flat_tops = 5;                ///< flat tops that are needed near the mean, where heavy clipping has its limit
   double far_out = 1.5;             ///< mean deviations from the mean: as far as the peak of a sine
   double fine = 0.02;       ///< of the span: a band at its end, and the step below which repeated values mean something
   double band_steps = 8.5;  ///< steps of resolution: eight, however their differences are rounded
-  /// time in which the usual size follows by a factor of e at most: ten times in half a minute [s]
+  /// time in which the median size follows by a factor of e at most: ten times in half a minute [s]
   double fold_time = 13.0;
   /// of the logarithm; then 5/2, 5/3, ..: a first reading of 1e12 is forgotten after 200 more
   double first_step = 5.0;
-  double fewest_for_size = 10.0;  ///< readings that tell the usual size
+  double fewest_for_size = 10.0;  ///< readings that tell the median size
   int believed_again = 10;  ///< readings after an absurd one: what stands between absurd ones is as wrong as they are
   /// [m/s^2]; a hundred g is an impact that breaks wheels, bumps into the stops are a few hundred m/s^2
   double most_of_a_vehicle = 1000.0;
-  double most_times_usual = 100.0;  ///< beyond that a reading is absurd, whatever its unit
-  double most_in_any_unit = 1e9;    ///< [m/s^2]: that of a vehicle in micro-g
+  double absurd_over_median = 100.0;  ///< beyond that a reading is absurd, whatever its unit
+  double most_in_any_unit = 1e9;      ///< [m/s^2]: that of a vehicle in micro-g
 
   // When readings were taken: StreamClock, SamplingTest.
   double near = 1.5;          ///< periods that a stamp may be off: one lost reading, and jitter

@@ -58,7 +58,7 @@ class MountClaim {
     bool isLeaning() const;    ///< by more than a road, a load or a careful hand makes
     bool isOnAnotherAxis() const;
     bool leansAs(const Finding& other) const;  ///< the two of a strut that is inclined
-    bool isWrongSize() const;                  ///< by more than an offset that is usual makes
+    bool isWrongSize() const;                  ///< by more than kLargestOffset
   };
 
   /// @param acceleration  in the IMU's axes [m/s^2].

@@ -15,13 +15,13 @@ struct VehicleTuning {
   double other_axis = M_PI / 4.0;  ///< lean from which another axis of the IMU is nearer to upright [rad]
   /// of a road of 9 %, steeper ones are rare, of the load or of a careful hand [rad]. An IMU that leans by less reads
   /// so little of the gravity that pitch and roll turn that b0 is wrong by 2 %.
-  double usual_lean = 5.0 / 180.0 * M_PI;
+  double largest_lean = 5.0 / 180.0 * M_PI;
 
   // The noise of the sensors.
   double noise_memory = 4096.0;       ///< samples: the ratio of two deviations within 2 %
   std::size_t fewest_of_noise = 256;  ///< samples: the same within 5 %
   /// of a gyro over that of an accelerometer until both have been heard [s/m]: 0.002 rad/s, 0.03 m/s^2
-  double usual_gyro_noise = 0.002 / 0.03;
+  double gyro_noise_ratio = 0.002 / 0.03;
   std::size_t noise_drive = 1 << 14;  ///< samples: their rms has an error of 0.6 %
   double noise_reach = 0.1;  ///< of the filter of shared noise, to either side [s]; twice as far takes 2 % more
   /// Errors of the models, which are in the residuals, too, in the unit of the noise: twice that of an accelerometer.
@@ -45,8 +45,8 @@ struct VehicleTuning {
   double longest_gyration = 1.5;  ///< radius of gyration over half the wheelbase, or track: no vehicle has more
   double smallest_spread = 1e-6;  ///< of places and inertias, below which there is none
   double least_upper_edge = 2.5;  ///< of the band, in bounces
-  double most_periods = 6.0;      ///< of the bounce in a block; 1.6 of a usual one
-  double usual_damping = 0.6;     ///< b1 over the bounce: a damping ratio of 0.3
+  double most_periods = 6.0;      ///< of the bounce in a block; 1.6 of a car's
+  double start_damping = 0.6;     ///< b1 over the bounce: a damping ratio of 0.3
 
   // What the vehicle file claims: VehicleClaims.
   double noise_known_to = 0.1;  ///< of its mean: with it 300 numbers, of all bins, rows and columns

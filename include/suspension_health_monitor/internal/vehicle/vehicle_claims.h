@@ -27,10 +27,10 @@ struct VehicleMistake {
     kSideOfOne,   ///< y of one position
     kShiftAhead,  ///< x of the body's IMU
     kShiftSide,   ///< y of the body's IMU
-    kLateWheel,   ///< the stamps of a wheel's sensor
-    kLateTop,     ///< those of the sensor at a strut top
-    kLateTops,    ///< those of all sensors at strut tops; of all wheels' the other way
-    kLateBody,    ///< those of the body's IMU
+    kWheelDelay,  ///< the stamps of a wheel's sensor
+    kTopDelay,    ///< those of the sensor at a strut top
+    kTopsDelay,   ///< those of all sensors at strut tops; of all wheels' the other way
+    kBodyDelay,   ///< those of the body's IMU
     kDeadGyro,    ///< of the body's IMU, in pitch or roll: it turns less than any body on struts
     kOthers,      ///< no such mistake explains how the tops move
   };
@@ -120,7 +120,7 @@ class VehicleClaims {
   VehicleMistake sameOrAlike() const;
   /// @return the mistake that all tops are late.
   VehicleMistake::Kind allTops() const {
-    return isByBody() ? VehicleMistake::Kind::kLateBody : VehicleMistake::Kind::kLateTops;
+    return isByBody() ? VehicleMistake::Kind::kBodyDelay : VehicleMistake::Kind::kTopsDelay;
   }
 
   Eigen::Index n_, forces_;

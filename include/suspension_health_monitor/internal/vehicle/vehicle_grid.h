@@ -61,8 +61,8 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;
 
-  /// @return what the sensors' noise makes of the samples. The noise of the body's IMU is the measured one, or the
-  /// usual one until enough was read. Allocates.
+  /// @return what the sensors' noise makes of the samples. The noise of the body's IMU is the measured one;
+  /// until enough was read that of kVehicleTuning. Allocates.
   SensorNoise noise() const;
 
   /// Writes down what the samples of a drive have gone through: noise() and the taps of their filter.
