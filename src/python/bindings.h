@@ -54,7 +54,7 @@ class ResultClass : public pybind11::class_<Result> {
   ResultClass(pybind11::module& module, const char* name, const char* text)
       : pybind11::class_<Result>(module, name, text) {
     if constexpr (Fields<Result>::value)
-      Fields<Result>::forEach([this](const char* name, auto field) { this->addField(name, field); });
+      Fields<Result>::forEach([this](const char* field, auto member) { this->addField(field, member); });
   }
 
   template <class What>
