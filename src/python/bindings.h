@@ -6,7 +6,6 @@
 
 #include <functional>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "../tools/result_fields.h"  // of its folder a file without ROS

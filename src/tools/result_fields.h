@@ -1,6 +1,7 @@
 #pragma once
 
 #include <boost/preprocessor/seq/for_each.hpp>
+#include <boost/preprocessor/stringize.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
 #include <type_traits>
 
@@ -14,7 +15,7 @@
 // The fields of results that users see: keys of JSON and attributes in Python, by the names that they have here. Values
 // that are computed, and those that users know by another name, are added where they are shown.
 
-#define SHM_VISIT_FIELD(r, Result, field) visit(#field, &Result::field);
+#define SHM_VISIT_FIELD(r, Result, field) visit(BOOST_PP_STRINGIZE(field), &Result::field);
 #define SHM_FIELDS(Result, ...)                                                             \
   template <>                                                                               \
   struct Fields<Result> : std::true_type {                                                  \
