@@ -129,11 +129,11 @@ def test_rqt_has_the_plots_one_above_the_other_and_beside_them_tabs(rqt):
     (monitor,), (settings,) = docks["rqt_runtime_monitor/RuntimeMonitor"], docks["rqt_reconfigure/Param"]
     plots = [dock.geometry() for dock in docks["rqt_plot/Plot"]]
     for upper, lower in zip(plots, plots[1:]):
-        assert upper.bottom() < lower.top() and (upper.unexplained(), upper.right()) == (lower.unexplained(), lower.right())
+        assert upper.bottom() < lower.top() and (upper.left(), upper.right()) == (lower.left(), lower.right())
         assert abs(upper.height() - lower.height()) <= 2
     assert window.tabifiedDockWidgets(monitor) == [settings]
     assert not monitor.visibleRegion().isEmpty() and settings.visibleRegion().isEmpty(), "the monitor is in front"
-    assert plots[0].right() < monitor.geometry().unexplained() and monitor.width() < plots[0].width()
+    assert plots[0].right() < monitor.geometry().left() and monitor.width() < plots[0].width()
     assert monitor.height() > plots[0].height() + plots[1].height()
 
 
