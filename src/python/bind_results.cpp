@@ -30,9 +30,8 @@ void bindBins(py::module& module, const char* class_name, const char* text) {
   BinsClass<Bin> bins(module, class_name, text);
   bins.def("__len__", [](const std::vector<Bin>& self) { return self.size(); });
   Fields<Bin>::forEach([&](const std::string_view name, auto field) {
-    bins.addColumn(
-        name == "from" ? "from_" : name.data(),  // from is a keyword of Python
-        [](const std::vector<Bin>& self) -> const auto& { return self; }, field);
+    bins.add(name == "from" ? "from_" : name.data(),  // from is a keyword of Python
+             [field](const std::vector<Bin>& self) { return arrayOf(self, field); });
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "../tools/result_fields.h"  // of its folder a file without ROS

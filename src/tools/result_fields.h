@@ -15,6 +15,7 @@
 // The fields of results that users see: keys of JSON and attributes in Python, by the names that they have here. Values
 // that are computed, and those that users know by another name, are added where they are shown.
 
+// As BOOST_HANA_ADAPT_STRUCT, whose tuples took the compiler as long as what uses them.
 #define SHM_VISIT_FIELD(r, Result, field) visit(BOOST_PP_STRINGIZE(field), &Result::field);
 #define SHM_FIELDS(Result, ...)                                                             \
   template <>                                                                               \

@@ -21,11 +21,10 @@ struct DecayWindow {
 // Sums of a window without what its own three numbers explain.
 class DecayWindowSums {
  public:
-  DecayWindowSums(double period, Eigen::Index count) : period_(period) {
+  DecayWindowSums(double period, Eigen::Index count) : period_(period), own_(count, 3) {
     const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
-    Eigen::MatrixXd own(count, 3);
-    own << Eigen::VectorXd::Ones(count), t, t.cwiseAbs2().array() - t.cwiseAbs2().mean();  // orthogonal
-    own_ = own.colwise().normalized();
+    own_ << Eigen::VectorXd::Ones(count), t, t.cwiseAbs2().array() - t.cwiseAbs2().mean();  // orthogonal
+    own_.colwise().normalize();
   }
 
   DecayWindow of(const std::vector<CornerSample>& samples, std::size_t first) const {

@@ -166,14 +166,14 @@ bool BaselineLearner::drifts() const {
          apart(a.stiffness.mean, b.stiffness.mean, a.stiffness, b.stiffness, 0.0);
 }
 
-// One measurement, ln(b1 of the second half / of the first) over the difference in temperature, and what is usual.
+// One measurement, ln(b1 of the second half / of the first) over the difference in temperature, and its prior.
 std::optional<DamperTemperature> BaselineLearner::temperature() const {
   const auto& [a, b] = halves_;
   if (!a.celsius || !b.celsius) return std::nullopt;
-  const double warmer = *b.celsius - *a.celsius, usual = square(DamperTemperature::kPriorStddev);
+  const double warmer = *b.celsius - *a.celsius, prior = square(DamperTemperature::kPriorStddev);
   const double noise =
       a.varianceOfMean(a.damping) / square(a.damping.mean) + b.varianceOfMean(b.damping) / square(b.damping.mean);
-  const double gain = usual * warmer / (usual * square(warmer) + noise);
+  const double gain = prior * warmer / (prior * square(warmer) + noise);
   return DamperTemperature{(*a.celsius + *b.celsius) / 2.0, gain * std::log(b.damping.mean / a.damping.mean),
                            DamperTemperature::kPriorStddev * std::sqrt(1.0 - gain * warmer)};
 }
