@@ -68,10 +68,10 @@ void judge(const BatteryVehicle& vehicle, const char* law, int seed, double shar
   const std::array<Memory, kMostEffects> rest{};
   for (Judged* each : damper)
     each->add(
-        curves.damper, [&](double v) { return truth.force(0.0, v, 0.0, rest.data()); }, motion.travelRate());
+        curves.damper, [&](double v) { return truth.force(0.0, v, 0.0, rest.data()); }, motion.scale().travel_rate);
   for (Judged* each : spring)
     each->add(
-        curves.spring, [&](double d) { return truth.force(d, 0.0, 0.0, rest.data()); }, motion.travel());
+        curves.spring, [&](double d) { return truth.force(d, 0.0, 0.0, rest.data()); }, motion.scale().travel);
 }
 
 void printRow(const char* law, const char* vehicle, const Judged& damper, const Judged& spring) {

@@ -78,7 +78,7 @@ Run run(const Case& test) {
     vehicle.struts[i].position = test.positions[i];
     if (test.by_body) vehicle.struts[i].sprung.reset();
   }
-  VehicleBlocks blocks(vehicle, BlockOptions{}, test.instants[1].time - test.instants[0].time);
+  VehicleBlocks blocks(vehicle, test.instants[1].time - test.instants[0].time);
   Run result;
   result.told.resize(n);
   const auto taken = [&](const VehicleReading& reading, double time) {
@@ -111,7 +111,7 @@ Run run(const Case& test) {
     has_body = true;
     for (std::size_t i = 0; i < n; ++i) result.all.push_back(blocks.overTheDrive(i));
     if (BodyRows rows; blocks.rows(rows))
-      result.body = BodyFit(test.places, pairsOf(test.places)).fit(rows, blocks.rowsOfHalves());
+      result.body = BodyFit(test.places.size(), test.places).fit(rows, blocks.rowsOfHalves());
   }
   return result;
 }

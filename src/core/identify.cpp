@@ -1,11 +1,9 @@
 #include "suspension_health_monitor/identify.h"
 
-#include <cmath>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -89,14 +87,15 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
 
 VehicleCoupling couplingOf(const VehicleMonitor& monitor, const std::vector<std::string>& names,
                            const std::vector<std::string>& forces) {
-  if (monitor.isCoupled() && monitor.rows() == nullptr) {  // a strut alone
-    VehicleCoupling alone;
-    alone.ratios = {{1.0}};
-    alone.stddevs = {{0.0}};
-    return alone;
+  if (monitor.rows() != nullptr) return describe(*monitor.rows(), monitor.body(), forces);
+  VehicleCoupling coupling;
+  if (monitor.isCoupled()) {  // a strut alone
+    coupling.ratios = {{1.0}};
+    coupling.stddevs = {{0.0}};
+  } else {
+    coupling.reason = whyNotCoupled(monitor.mistake(), names);
   }
-  const BodyRows* rows = monitor.rows();
-  return describe(rows, monitor.body(), rows == nullptr ? whyNotCoupled(monitor.mistake(), names) : "", forces);
+  return coupling;
 }
 
 std::string describeMistake(const VehicleMonitor& monitor, const std::vector<std::string>& names) {

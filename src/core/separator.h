@@ -36,7 +36,8 @@ class Separator {
     models_ = rows_.models();
     for (std::size_t i = 0; i < known.size(); ++i)
       if (known[i]) models_[i] = *known[i];
-    noise_ = separateNoise(knownNoise(drives.front().noise, names.size()), period_, rows_);
+    const SensorNoise& noise = drives.front().noise;
+    noise_ = separateNoise(noise.empty() ? noiseOfOwnSensors(names.size()) : noise, period_, rows_);
   }
 
   const VehicleCoupling& coupling() const { return coupling_; }
@@ -81,27 +82,29 @@ class Separator {
  private:
   // A grid made the samples out of the readings, so that each strut seems to have two accelerometers of its own.
   void learnRows(const std::vector<std::string>& names) {
-    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(names.size(), drives_.front().forces.size()), BlockOptions{},
-                         period_);
+    VehicleChannels vehicle = VehicleChannels::ofAccelerometers(names.size(), drives_.front().forces.size());
+    VehicleBlocks blocks(vehicle, period_);
     for (const VehicleDrive& drive : drives_) {
       if (&drive != &drives_.front()) blocks.restart();
       for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));
     }
     const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
     const StrutPlaces& places = drives_.front().places;
-    TopsOfBody of_body(names.size());
     if (places.size() == names.size() &&
         static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise)) == names.size())
-      std::copy(places.begin(), places.end(), of_body.begin());
-    const VehicleMistake mistake = blocks.claims(of_body).find();
-    const bool are_known = rows && rows->areKnown() && !mistake.isContradiction();
-    std::optional<BodyFitResult> body;
-    if (are_known) {
-      if (names.size() > 1) body = BodyFit::of(names.size(), drives_.front().places).fit(*rows, blocks.rowsOfHalves());
-      rows_ = body ? body->combined(*rows) : *rows;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        vehicle.struts[i].sprung.reset();
+        vehicle.struts[i].position.emplace(places[i][0], places[i][1], 0.0);
+      }
+    const VehicleMistake mistake = blocks.claims(vehicle).find();
+    if (!rows || !rows->areKnown() || mistake.isContradiction()) {
+      coupling_.reason = whyNotCoupled(mistake, names);
+      return;
     }
-    coupling_ = describe(are_known ? &rows_ : nullptr, body, are_known ? "" : whyNotCoupled(mistake, names),
-                         namesOf(drives_.front().forces));
+    std::optional<BodyFitResult> body;
+    if (names.size() > 1) body = BodyFit(names.size(), places).fit(*rows, blocks.rowsOfHalves());
+    rows_ = body ? body->combined(*rows) : *rows;
+    coupling_ = describe(rows_, body, namesOf(drives_.front().forces));
   }
 
   bool isUndersampled() const {

@@ -1,9 +1,10 @@
 // What src/tools/long_work.h promises, for a module of Python: signals belong to the interpreter, which turns Ctrl-C
 // into KeyboardInterrupt, and progress goes to a callback instead of a bar.
+#include "bags_long_work.h"
+
 #include <algorithm>
 
 #include "../tools/long_work.h"
-#include "bags_call.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -2,20 +2,135 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <map>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "../ros/model_file.h"
 #include "../ros/simulated_drive.h"
 #include "../ros/yaml_settings.h"
 #include "../tools/command.h"
+#include "../tools/recorded_drives.h"
+#include "../tools/recorded_monitor.h"
 #include "../tools/strut_files.h"
-#include "bags_call.h"
+#include "bags_long_work.h"
+#include "results.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
-
-namespace py = pybind11;
-
 namespace {
+
+namespace po = boost::program_options;
+
+/// Adds what the command line does, as defWork(); its errors are ValueError.
+template <class... Given, class Work, class... Names>
+void defCommand(pybind11::module& module, const char* name, const Work& work, const Names&... names) {
+  const auto command = [work](auto&... given) {
+    try {
+      return work(given...);
+    } catch (const pybind11::error_already_set&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw pybind11::value_error(error.what());
+    }
+  };
+  defWork<Given...>(module, name, command, names...);
+}
+
+/// @param arguments  as on the command line, of any of the commands.
+po::variables_map parsed(const Arguments& arguments) {
+  po::options_description description = bagOptions();
+  addModelOptions(description);
+  description.add_options()(kBaseline, po::value<std::string>());
+  return *parse(arguments, "", description, "bag");
+}
+
+/// @param make  makes the result of a strut, by its place.
+/// @return results by names; that of a strut alone is empty.
+template <class Make>
+auto byStrut(const BagOptions& options, const Make& make) {
+  std::map<std::string, decltype(make(0))> results;
+  for (const std::size_t i : options.vehicle.asked) results.emplace(options.vehicle.names[i], make(i));
+  return results;
+}
+
+/// The monitor over the bags, which are read, with the course of every strut.
+struct Watched {
+  std::vector<Course> courses;
+  RecordedMonitor recorded;
+
+  /// @param keeps_logs  as RecordedMonitor.
+  Watched(const BagOptions& options, const HealthyStruts& healthy, bool keeps_logs, ToolsWork& tools)
+      : courses(healthy.size()),
+        recorded(options, healthy, keeps_logs,
+                 [this](std::size_t strut, const MonitorReport& report) { courses[strut].add(report); }) {
+    tools.tellReading(options.bags.paths.size());
+    recorded.read();
+  }
+};
+
+auto identifyBags(const Arguments& arguments, LongWork& work) {
+  ToolsWork tools(work);
+  const BagOptions options = readBagOptions(parsed(arguments));
+  const HealthyStruts healthy = beforehand({}, options);
+  Watched watched(options, healthy, false, tools);
+  const VehicleIdentification found = watched.recorded.identified();
+  return byStrut(options, [&](std::size_t i) {
+    Identification result = Identification::of(found.struts[i], watched.recorded.pipeline(), i, watched.courses[i]);
+    const PipelineOptions& settings = options.settings.struts[i];
+    result.change = describeChange(result, knownHealthy(healthy[i], settings), settings.monitor);
+    return result;
+  });
+}
+
+/// @param baseline, file  of a strut alone, that are given as objects.
+auto watchBags(const Arguments& arguments, const std::optional<Baseline>& baseline, const std::string& file,
+               LongWork& work) {
+  ToolsWork tools(work);
+  const po::variables_map values = parsed(arguments);
+  const BagOptions options = readLiveOptions(values);
+  const HealthyStruts healthy =
+      baseline ? beforehand({HealthyStrut{*baseline, file}}, options) : healthyOf(values, options);
+  const Watched watched(options, healthy, true, tools);
+  const RecordedMonitor& recorded = watched.recorded;
+  return byStrut(options, [&](std::size_t i) {
+    return HealthSummary::of(recorded.log(i), recorded.strut(i), recorded.baselineFile(i),
+                             recorded.pipeline().rejected(), watched.courses[i]);
+  });
+}
+
+auto compareDrives(const Arguments& arguments, LongWork& work) {
+  const ToolsWork tools(work);
+  AskedDrives asked(parsed(arguments));
+  asked.read();
+  RecordedComparison found = compareBags(asked, work.callback());
+  return byStrut(asked.options, [&](std::size_t i) { return std::move(found.struts[i]); });
+}
+
+auto diagnoseDrives(const Arguments& arguments, int threads, LongWork& work) {
+  const ToolsWork tools(work);
+  AskedDrives asked(parsed(arguments));
+  asked.read();
+  DiagnoseOptions searching;
+  searching.threads = threads;
+  searching.progress = work.callback();
+  const VehicleDiagnosis found = diagnoseBags(asked, searching);
+  const std::vector<std::string> changes = changesOf(asked);
+  return byStrut(asked.options, [&](std::size_t i) {
+    SearchedStrut result{found.struts[i], changes[i]};
+    requireEnough(result.shortcoming, result.reason, asked.options.vehicle.prefix(i, ": "));
+    result.curves =
+        strutCurves(found.drives[i], result.model(), asked.options.period(), found.coupling.modelErrorOf(i));
+    result.travel = travelStatistics(found.drives[i], result.model(), asked.options.period());
+    result.verdict = found.verdictOn(i);
+    result.selected = found.selected(i);
+    return result;
+  });
+}
 
 std::string writeSimulation(const std::string& path, const OptionMap& keywords, LongWork& work) {
   const ToolsWork tools(work, 1);
@@ -23,12 +138,12 @@ std::string writeSimulation(const std::string& path, const OptionMap& keywords, 
   return path;
 }
 
-py::dict readSettings(const std::string& path) {
-  py::dict settings;
+pybind11::dict readSettings(const std::string& path) {
+  pybind11::dict settings;
   for (const auto& [name, value] : readYaml(path)) {
     if (const auto* list = std::get_if<UnusableList>(&value))
       throw std::invalid_argument(name + " = " + list->text + ", must be a plain value");
-    settings[py::str(name)] = py::str(std::get<std::string>(value));  // a YAML file has texts only
+    settings[pybind11::str(name)] = pybind11::str(std::get<std::string>(value));  // a YAML file has texts only
   }
   return settings;
 }
@@ -38,12 +153,17 @@ py::dict readSettings(const std::string& path) {
 
 PYBIND11_MODULE(_bags, module) {
   using namespace suspension_health_monitor;
+  using pybind11::arg;
   module.doc() = "Compiled part of suspension_health_monitor: bags and files.";
   pybind11::module::import("suspension_health_monitor._core");  // which has the classes of the results
-  bindBags(module);
+  defCommand<Arguments>(module, "identify", &identifyBags, "arguments");
+  defCommand<Arguments, std::optional<Baseline>, std::string>(module, "health", &watchBags, "arguments", "baseline",
+                                                              "file");
+  defCommand<Arguments>(module, "compare", &compareDrives, "arguments");
+  defCommand<Arguments, int>(module, "diagnose", &diagnoseDrives, "arguments", "threads");
   defCommand<std::string, OptionMap>(module, "simulate", &writeSimulation, "path", "keywords");
-  module.def("read_effects", &readEffectsFile, py::arg("path"));
-  module.def("read_model", &readModelFile, py::arg("path"), py::arg("library"));
-  module.def("read_baseline", &readHealthy, py::arg("path"));
-  module.def("read_settings", &readSettings, py::arg("path"));
+  module.def("read_effects", &readEffectsFile, arg("path"));
+  module.def("read_model", &readModelFile, arg("path"), arg("library"));
+  module.def("read_baseline", &readHealthy, arg("path"));
+  module.def("read_settings", &readSettings, arg("path"));
 }

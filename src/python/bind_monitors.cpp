@@ -1,7 +1,8 @@
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 
 #include "bindings.h"
-#include "callback_lock.h"
 #include "options.h"
 #include "readings.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
@@ -13,7 +14,41 @@ namespace py = pybind11;
 
 namespace {
 
-/// StrutMonitor for threads of Python.
+/// A monitor that calls back into Python and that one thread at a time may use. A thread that waits for it has released
+/// the interpreter's lock, so that the thread inside can take that lock for its callback. The callback may ask, but not
+/// push again.
+template <class Monitor>
+class Locked {
+ public:
+  template <class... Given>
+  explicit Locked(Given&&... given) : monitor_(std::forward<Given>(given)...) {}
+
+  /// @param question  a member of the monitor, or a function of it that returns at once.
+  template <class Question>
+  auto ask(const Question& question) const {
+    const pybind11::gil_scoped_release released;
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
+    return std::invoke(question, monitor_);
+  }
+
+  /// Runs what calls back, without the interpreter's lock.
+  /// @throws std::invalid_argument  from within a callback of it.
+  template <class Work>
+  void push(const Work& work) {
+    const pybind11::gil_scoped_release released;
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
+    if (is_pushing_) throw std::invalid_argument("push() from within on_report, must be from outside");
+    const std::unique_ptr<bool, void (*)(bool*)> busy(&is_pushing_, [](bool* flag) { *flag = false; });
+    is_pushing_ = true;
+    work(monitor_);
+  }
+
+ private:
+  mutable std::recursive_mutex mutex_;
+  bool is_pushing_ = false;
+  Monitor monitor_;
+};
+
 using LockedMonitor = Locked<StrutMonitor>;
 
 /// @param on_report  outlives what is returned.
@@ -37,9 +72,9 @@ void push(LockedMonitor& self, const Recording& readings) {
   });
 }
 
-template <class Answer>
-auto asking(Answer (StrutMonitor::*question)() const) {
-  return [question](const LockedMonitor& self) { return self.ask(question); };
+template <class Monitor, class Answer>
+auto asking(Answer (Monitor::*question)() const) {
+  return [question](const Locked<Monitor>& self) { return self.ask(question); };
 }
 
 using Position = std::array<double, 3>;
@@ -101,7 +136,6 @@ class ArrayVehicle {
   VehiclePipeline pipeline_;
 };
 
-/// For threads of Python.
 using LockedVehicle = Locked<ArrayVehicle>;
 
 }  // namespace
@@ -152,8 +186,8 @@ void bindMonitors(py::module& module) {
             self.push([&](ArrayVehicle& vehicle) { vehicle.push(stamps, body, wheel, interruption); });
           },
           py::arg("stamps"), py::arg("body"), py::arg("wheel"))
-      .def_property_readonly("is_coupled", [](const LockedVehicle& self) { return self.ask(&ArrayVehicle::isCoupled); })
-      .def_property_readonly("reports", [](const LockedVehicle& self) { return self.ask(&ArrayVehicle::reports); });
+      .def_property_readonly("is_coupled", asking(&ArrayVehicle::isCoupled))
+      .def_property_readonly("reports", asking(&ArrayVehicle::reports));
 }
 
 }  // namespace suspension_health_monitor

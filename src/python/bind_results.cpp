@@ -21,13 +21,10 @@ namespace py = pybind11;
 
 namespace {
 
-template <class Bin>
-using BinsClass = ResultClass<std::vector<Bin>>;
-
 /// Bins: of each field an array, one entry per bin.
 template <class Bin>
 void bindBins(py::module& module, const char* class_name, const char* text) {
-  BinsClass<Bin> bins(module, class_name, text);
+  ResultClass<std::vector<Bin>> bins(module, class_name, text);
   bins.def("__len__", [](const std::vector<Bin>& self) { return self.size(); });
   Fields<Bin>::forEach([&](const std::string_view name, auto field) {
     bins.add(name == "from" ? "from_" : name.data(),  // from is a keyword of Python

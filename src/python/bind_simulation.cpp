@@ -13,42 +13,33 @@ namespace py = pybind11;
 
 namespace {
 
-/// What one simulated sensor has read.
-struct SimulatedReadings {
-  std::vector<double> stamps, values;
-
-  void add(double start, const std::optional<AccelerometerReading>& reading, double gravity) {
-    if (!reading) return;
-    stamps.push_back(start + toSeconds(reading->stamp));
-    values.push_back(reading->acceleration + gravity);
-  }
-};
-
 struct Simulation {
-  SimulatedReadings body, wheel, road;
-  std::vector<std::array<double, 4>> across;  ///< a_x, a_y, w_x, w_y, with body
+  std::vector<double> body, stamps_body, wheel, stamps_wheel, road, stamps_road;  ///< readings, and when they were
+  std::vector<std::array<double, 4>> across;                                      ///< a_x, a_y, w_x, w_y, with body
   std::vector<double> time;
   std::vector<DriveTruth> truth;
 };
 
-void refusePlaying(const OptionMap& values) {
-  for (const auto& field : kPlayingFields)
-    if (field.name != "start_time" && values.count(std::string(field.name)) != 0)
-      throw std::invalid_argument(std::string(field.name) + " is an option of the nodelet, must not come with arrays");
-}
-
 Simulation simulateArrays(const OptionMap& keywords, const EffectLibrary& library, LongWork& work) {
-  refusePlaying(keywords);
+  for (const auto& field : kPlayingFields)
+    if (field.name != "start_time" && keywords.count(std::string(field.name)) != 0)
+      throw std::invalid_argument(std::string(field.name) + " is an option of the nodelet, must not come with arrays");
   const SimulatorOptions options = SimulatorOptions::fromValues(keywords, library);
   DriveSimulator simulator(options.drive);
   Simulation made;
   const double start = options.playing.start_time, gravity = options.publishing.gravity;
   const double body_gravity = SimulatedFaults::from(options.drive.hidden_faults).readAtRest(gravity);
+  const auto add = [&](const std::optional<AccelerometerReading>& reading, double at_rest, std::vector<double>& values,
+                       std::vector<double>& stamps) {
+    if (!reading) return;
+    values.push_back(reading->acceleration + at_rest);
+    stamps.push_back(start + toSeconds(reading->stamp));
+  };
   while (const std::optional<DriveSample> sample = simulator.next()) {
     const double now = toSeconds(sample->stamp);
-    made.body.add(start, sample->sprung, body_gravity);
-    made.wheel.add(start, sample->unsprung, gravity);
-    if (options.publishing.road_imu) made.road.add(start, sample->road, gravity);
+    add(sample->sprung, body_gravity, made.body, made.stamps_body);
+    add(sample->unsprung, gravity, made.wheel, made.stamps_wheel);
+    if (options.publishing.road_imu) add(sample->road, gravity, made.road, made.stamps_road);
     const Sway& sway = sample->body;
     const bool has_gyro = options.drive.body_rate > 0.0;
     const auto rate = [&](std::size_t axis) { return has_gyro ? sway.angular_rate[axis] : std::nan(""); };
@@ -60,15 +51,6 @@ Simulation simulateArrays(const OptionMap& keywords, const EffectLibrary& librar
   return made;
 }
 
-void addSensor(ResultClass<Simulation>& simulation, const char* name, const char* stamps,
-               SimulatedReadings Simulation::*sensor) {
-  simulation
-      .addArray(
-          name, [sensor](const Simulation& self) -> const auto& { return (self.*sensor).values; })
-      .addArray(
-          stamps, [sensor](const Simulation& self) -> const auto& { return (self.*sensor).stamps; });
-}
-
 py::array_t<double> acrossOf(const Simulation& simulation) {
   const auto& across = simulation.across;
   return py::array_t<double>({static_cast<Py_ssize_t>(across.size()), Py_ssize_t{4}},
@@ -77,25 +59,18 @@ py::array_t<double> acrossOf(const Simulation& simulation) {
 
 }  // namespace
 
+SHM_FIELDS(Simulation, body, stamps_body, wheel, stamps_wheel, road, stamps_road, time)
+
 void bindSimulation(py::module& module) {
-  ResultClass<Simulation> simulation(module, "Simulation",
-                                     "A simulated drive: readings of the sensors, and the truth that none tells.");
-  addSensor(simulation, "body", "stamps_body", &Simulation::body);
-  addSensor(simulation, "wheel", "stamps_wheel", &Simulation::wheel);
-  addSensor(simulation, "road", "stamps_road", &Simulation::road);
-  simulation.add("across", &acrossOf)
-      .addArray("time", &Simulation::time)
+  ResultClass<Simulation>(module, "Simulation",
+                          "A simulated drive: readings of the sensors, and the truth that none tells.")
+      .add("across", &acrossOf)
       .addColumn("damping_to_mass", &Simulation::truth, &DriveTruth::damping_to_mass)
       .addColumn("stiffness_to_mass", &Simulation::truth, &DriveTruth::stiffness_to_mass)
       .addColumn("travel", &Simulation::truth, &DriveTruth::travel)
       .addColumn("travel_rate", &Simulation::truth, &DriveTruth::travel_rate)
       .addColumn("road_height", &Simulation::truth, &DriveTruth::road_height);
-  module.def(
-      "simulator_keywords",
-      [](const OptionMap& keywords, const std::vector<std::string>& arguments) {
-        return takeKeywords(keywords, SimulatorOptions::describe(), arguments);
-      },
-      py::arg("keywords"), py::arg("arguments"));
+  module.def("simulator_keywords", &keywordsOf<SimulatorOptions>, py::arg("keywords"), py::arg("arguments"));
   defWork<OptionMap, EffectLibrary>(module, "simulate", &simulateArrays, "keywords", "library");
 }
 

@@ -16,13 +16,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-/// @return the horizon [s] of the strut that the readings show; empty: no damped spring.
-std::optional<double> proposeHorizon(const Recordings& recordings, const MonitorOptions& options, double period,
-                                     Stamp shift, LongWork& work) {
-  const auto rough = roughStrut(toDrives(recordings, options, period, shift, work), period);
-  return rough ? std::optional(rough->horizonSamples(period) * period) : std::nullopt;
-}
-
 /// @throws std::invalid_argument  saying why, if the readings have not given one regression row.
 const SuspensionMonitor& monitorOf(const VehiclePipeline& made) {
   if (made.strut() == nullptr)
@@ -40,7 +33,9 @@ Identification identifyArrays(const Recordings& recordings, const OptionMap& key
   options.sample_period = period;
   options.tyre = recordings.front().streams().size() > indexOf(Side::kRoad);
   const bool is_given = options.integration_horizon.has_value();
-  if (!is_given) options.integration_horizon = proposeHorizon(recordings, options, period, shift, work);
+  if (!is_given)
+    if (const auto rough = roughStrut(toDrives(recordings, options, period, shift, work), period))
+      options.integration_horizon = rough->horizonSamples(period) * period;
   Course course(shift);
   VehiclePipeline made(options, [&](const MonitorReport& report) { course.add(report); });
   if (model) made.setEffects(model->effects, model->linearPart());
@@ -58,14 +53,13 @@ Identification identifyArrays(const Recordings& recordings, const OptionMap& key
 
 HealthSummary watchArrays(const Recordings& recordings, const OptionMap& keywords,
                           const std::optional<Baseline>& healthy, const std::string& file, LongWork& work) {
-  const PipelineOptions options = arrayOptions(keywords);
+  PipelineOptions options = arrayOptions(keywords);
+  options.monitor.tyre = false;
   requireFittingPeriod(recordings, options.monitor);
   const Stamp shift = shiftOf(recordings);
-  MonitorOptions its = options.monitor;
-  its.tyre = false;
   HealthLog log(fromSeconds(options.shell.input_timeout), {"the body's sensor", "the wheel carrier's sensor"});
   Course course(shift);
-  VehiclePipeline strut(its, [&](const MonitorReport& report) {
+  VehiclePipeline strut(options.monitor, [&](const MonitorReport& report) {
     log.addReport(report);
     course.add(report);
   });

@@ -10,8 +10,12 @@
 #include <vector>
 
 #include "../tools/result_fields.h"  // of its folder a file without ROS
-#include "opaque.h"
 #include "suspension_health_monitor/drive.h"
+#include "suspension_health_monitor/residual_views.h"
+
+// Classes of their own in Python, not lists. A file that casts one includes this header.
+PYBIND11_MAKE_OPAQUE(std::vector<suspension_health_monitor::ResidualBin>)
+PYBIND11_MAKE_OPAQUE(std::vector<suspension_health_monitor::TimeBin>)
 
 namespace suspension_health_monitor {
 

@@ -13,13 +13,8 @@ PYBIND11_MODULE(_core, module) {
   py::class_<UnusableList>(module, "UnusableList", "A value that no option takes.")
       .def(py::init<std::string>())
       .def("__str__", [](const UnusableList& list) { return list.text; });
-  module.def(
-      "monitor_keywords",
-      [](const OptionMap& keywords, const std::vector<std::string>& arguments) {
-        return takeKeywords(keywords, PipelineOptions::describe(), arguments);
-      },
-      py::arg("keywords"), py::arg("arguments"),
-      "The keywords of a call by the options' full names; refuses an unknown one, naming the nearest.");
+  module.def("monitor_keywords", &keywordsOf<PipelineOptions>, py::arg("keywords"), py::arg("arguments"),
+             "The keywords of a call by the options' full names; refuses an unknown one, naming the nearest.");
   module.def("without_messages", &withoutMessages, py::arg("keywords"), "Those that arrays have a use for.");
   bindModel(module);
   bindReports(module);

@@ -17,6 +17,12 @@ namespace suspension_health_monitor {
 OptionMap takeKeywords(const OptionMap& keywords, const std::vector<OptionDescription>& known,
                        const std::vector<std::string>& arguments);
 
+/// The same for all options of a struct.
+template <class Options>
+OptionMap keywordsOf(const OptionMap& keywords, const std::vector<std::string>& arguments) {
+  return takeKeywords(keywords, Options::describe(), arguments);
+}
+
 /// @return without those that are about messages, of which arrays have none: axes, frames, ranges, rates, publishing.
 OptionMap withoutMessages(OptionMap keywords);
 

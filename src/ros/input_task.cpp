@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "conversions.h"
-#include "strut_diagnostics.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
@@ -53,12 +52,14 @@ void describeRejected(const RejectCounts& rejected, const std::string& of, Rejec
 
 }  // namespace
 
-InputTask::InputTask(const VehicleOptions& options, const VehicleStreams& streams,
-                     const std::vector<std::string>& topics)
-    : is_alone_(options.isOneStrut()),
+InputTask::InputTask(MonitorHost& host, const std::string& name, const VehicleOptions& options,
+                     const VehicleStreams& streams, const std::vector<std::string>& topics)
+    : host_(host),
+      is_alone_(options.isOneStrut()),
       target_frame_(options.common.shell.target_frame),
       max_lag_(options.common.shell.max_lag),
-      silent_(topics, fromSeconds(options.common.shell.input_timeout)) {
+      silent_(topics, fromSeconds(options.common.shell.input_timeout)),
+      log_(name + " input", Status::ERROR, options.common.shell.input_timeout) {
   const ShellOptions& shell = options.common.shell;
   for (std::size_t i = 0; i < streams.sensors.size(); ++i) {
     const Place place = streams.sensors[i].place;
@@ -89,27 +90,28 @@ void InputTask::restart() {
   reported_of_vehicle_ = reported_of_strut_ = Rejected(sensors_.size());
 }
 
-void InputTask::describe(const MessagePipeline* pipeline, const std::string& missing, Status& status) {
-  summarize(all_sensors_, pipeline, missing, status);
-  if (pipeline != nullptr) {
+void InputTask::describe(Status& status) {
+  summarize(all_sensors_, status);
+  if (const MessagePipeline* pipeline = host_.pipeline()) {
     describeSeries(*pipeline, status);
     describeSensors(all_sensors_, *pipeline, reported_of_vehicle_, status);
     describeMounts(*pipeline, status);
   }
   describeSilence(all_sensors_, status);
   describeClock(status);
+  log_.note(status);
 }
 
-void InputTask::describeStrut(std::size_t strut, const MessagePipeline* pipeline, const std::string& missing,
-                              Status& status) {
-  summarize(own_sensors_[strut], pipeline, missing, status);
-  if (pipeline != nullptr) describeSensors(own_sensors_[strut], *pipeline, reported_of_strut_, status);
+void InputTask::describeStrut(std::size_t strut, Status& status) {
+  if (is_alone_) return describe(status);
+  summarize(own_sensors_[strut], status);
+  if (host_.pipeline() != nullptr) describeSensors(own_sensors_[strut], *host_.pipeline(), reported_of_strut_, status);
   describeSilence(own_sensors_[strut], status);
 }
 
-void InputTask::summarize(const Sensors& sensors, const MessagePipeline* pipeline, const std::string& missing,
-                          Status& status) const {
-  if (pipeline == nullptr) return status.summary(Status::ERROR, missing);
+void InputTask::summarize(const Sensors& sensors, Status& status) const {
+  const MessagePipeline* pipeline = host_.pipeline();
+  if (pipeline == nullptr) return status.summary(Status::ERROR, host_.whyNoMonitor());
   const auto isSilent = [this](std::size_t sensor) { return sensors_[sensor].arrivals.isSilentByWall(); };
   const bool stands_still = ros::Time::isSimTime() && clock_ == ros::Time::now();
   const SuspensionMonitor* monitor = pipeline->strut();

@@ -9,20 +9,25 @@
 #include <vector>
 
 #include "arrivals.h"
-#include "message_pipeline.h"
+#include "monitor_host.h"
 #include "suspension_health_monitor/internal/signal/stream_silence.h"
 #include "task_log.h"
 #include "vehicle_options.h"
 
 namespace suspension_health_monitor {
 
+/// Why a strut has no monitor at first.
+inline constexpr const char* kMeasuringPeriod = "measuring the sample period";
+
 /// The task Input of /diagnostics, of a vehicle and of each of its struts: which sensor is silent or late, how its
 /// readings come onto the grid, and which were kept out. Sensors are named by their topics, those of a strut alone by
 /// their place. Counters run from the start or the last reset; a warning is about what came since the last report.
 class InputTask {
  public:
+  /// @param host  outlives this object.  @param name  of the nodelet, for the terminal.
   /// @param topics  by VehicleStreams::sensors.
-  InputTask(const VehicleOptions& options, const VehicleStreams& streams, const std::vector<std::string>& topics);
+  InputTask(MonitorHost& host, const std::string& name, const VehicleOptions& options, const VehicleStreams& streams,
+            const std::vector<std::string>& topics);
 
   void noteMessage(std::size_t sensor, const ros::Time& stamp);
 
@@ -35,11 +40,10 @@ class InputTask {
   /// Why the monitor cannot run, once it has found out.
   void setRefusal(const std::string& reason) { refusal_ = reason; }
 
-  /// @param pipeline  nullptr: the positions of the struts are not known yet, and `missing` says why.
-  void describe(const MessagePipeline* pipeline, const std::string& missing, Status& status);
+  void describe(Status& status);
 
   /// The same of a strut's own sensors alone, in a vehicle.
-  void describeStrut(std::size_t strut, const MessagePipeline* pipeline, const std::string& missing, Status& status);
+  void describeStrut(std::size_t strut, Status& status);
 
  private:
   struct Sensor {
@@ -50,14 +54,14 @@ class InputTask {
   using Sensors = std::vector<std::size_t>;
   using Rejected = std::vector<RejectCounts>;  // of the last report: by sensor, of a strut alone of both IMUs
 
-  void summarize(const Sensors& sensors, const MessagePipeline* pipeline, const std::string& missing,
-                 Status& status) const;
+  void summarize(const Sensors& sensors, Status& status) const;
   void describeSeries(const MessagePipeline& pipeline, Status& status);
   void describeSensors(const Sensors& sensors, const MessagePipeline& pipeline, Rejected& before, Status& status);
   void describeMounts(const MessagePipeline& pipeline, Status& status) const;
   void describeSilence(const Sensors& sensors, Status& status);
   void describeClock(Status& status);
 
+  MonitorHost& host_;
   bool is_alone_;
   std::vector<Sensor> sensors_;
   Sensors all_sensors_;
@@ -65,6 +69,7 @@ class InputTask {
   std::string target_frame_;
   std::optional<double> max_lag_;  // [s]
   StreamSilence silent_;
+  TaskLog log_;
   PublishedTopics published_;
   std::string refusal_;
   std::uint64_t gaps_before_ = 0;

@@ -31,9 +31,10 @@ const ActiveEffect* find(const std::vector<ActiveEffect>& effects, const std::st
   return found == effects.end() ? nullptr : &*found;
 }
 
-bool haveSameNames(const std::vector<ActiveEffect>& some, const std::vector<ActiveEffect>& others) {
-  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
-                    [](const ActiveEffect& a, const ActiveEffect& b) { return a.effect.name == b.effect.name; });
+std::vector<std::string> effectNames(const std::vector<ActiveEffect>& effects) {
+  std::vector<std::string> names;
+  for (const ActiveEffect& active : effects) names.push_back(active.effect.name);
+  return names;
 }
 
 /// As the final fit has the effect, else as it was fitted alone.
@@ -64,8 +65,7 @@ LiveModel::LiveModel(const ShellOptions& options, const std::string& strut)
   if (!model_file_.empty() && std::filesystem::exists(model_file_))
     prefixed("model_file = ", [&] { loaded_ = load(); });
   if (loaded_) effects_ = loaded_->effects;
-  std::vector<std::string> names;
-  for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
+  std::vector<std::string> names = effectNames(effects_);
   for (const std::string& name : split(options.effects))
     if (find(effects_, name) == nullptr) names.push_back(name);
   prefixed("effects = \"" + options.effects + "\": ",
@@ -137,9 +137,7 @@ std::optional<LinearStrut> LiveModel::strutFor(const std::vector<ActiveEffect>& 
 }
 
 std::string LiveModel::describe() const {
-  std::vector<std::string> names;
-  for (const ActiveEffect& active : effects_) names.push_back(active.effect.name);
-  return names.empty() ? "the linear strut" : "the linear strut with " + join(names, ", ");
+  return effects_.empty() ? "the linear strut" : "the linear strut with " + join(effectNames(effects_));
 }
 
 std::vector<std::string> LiveModel::remarks() const {
@@ -174,7 +172,7 @@ void LiveModel::save(StrutModel model) const {
     model.reading = loaded_->reading;
     model.is_complete = loaded_->is_complete;
   }
-  if (diagnosis_ && *diagnosis_ && haveSameNames(diagnosis_->model().effects, model.effects))
+  if (diagnosis_ && *diagnosis_ && effectNames(diagnosis_->model().effects) == effectNames(model.effects))
     model.is_complete = diagnosis_->model().is_complete;
   if (strut_.empty()) return TextFile(model_file_).commit(toYaml(model));
   ModelsByStrut all;

@@ -2,9 +2,7 @@
 
 #include <sys/resource.h>
 
-#include <memory>
 #include <stdexcept>
-#include <utility>
 
 #include "conversions.h"
 #include "suspension_health_monitor/internal/base/text.h"
@@ -58,13 +56,15 @@ void addExtended(const Diagnosis& found, DiagnoseResponse& response) {
   }
 }
 
-/// The answer of ~diagnose: the whole result as plain fields.
-DiagnoseResponse toResponse(const Diagnosis& found) {
-  DiagnoseResponse response;
+/// The answer about one strut: the whole result as plain fields.
+/// @throws std::runtime_error  in words for people, if there is nothing to be said of it.
+void setAnswer(const VehicleDiagnosis& all, const SearchTask& task, std::size_t strut, DiagnoseResponse& response) {
+  const Diagnosis& found = all.struts[strut];
+  if (!found) tellLack(task.drive, found.reason + ": drive on");
   takeFiguresOff(response);
   response.success = true;
   response.message = found.remainder.empty() ? found.summary : found.summary + ' ' + found.remainder;
-  response.verdict = nameOf(found.verdict);
+  response.verdict = nameOf(all.verdictOn(strut));
   response.base_held_out_rmse = found.base.held_out_rmse;
   response.base_fit_percent = found.base_fit_percent;
   response.noise_floor = found.noise_floor;
@@ -76,57 +76,32 @@ DiagnoseResponse toResponse(const Diagnosis& found) {
     response.ranked_error_removed_percent.push_back(ranked.error_removed_percent);
     response.ranked_significant.push_back(ranked.significant);
   }
-  response.selected = found.selected;
+  response.selected = all.selected(strut);
   for (const std::vector<std::string>& group : found.indistinguishable)
     response.indistinguishable.push_back(join(group));
   response.suggested_drive = found.suggested_drive;
   if (found.extended) addExtended(found, response);
-  return response;
 }
 
-DiagnoseVehicleResponse toResponse(const VehicleDiagnosis& found, const std::vector<std::string>& struts) {
-  DiagnoseVehicleResponse response;
+/// The answer about all.
+void setAnswer(const VehicleDiagnosis& found, const SearchTask& task, std::size_t, DiagnoseVehicleResponse& response) {
   response.success = true;
   response.message = found.summary;
   response.verdict = nameOf(found.verdict);
-  response.strut = struts;
+  response.strut = task.struts;
   for (std::size_t i = 0; i < found.struts.size(); ++i) {
     const Diagnosis& strut = found.struts[i];
     response.verdicts.emplace_back(strut ? nameOf(found.verdictOn(i)) : "");
     response.selected.push_back(join(found.selected(i), ", "));
     response.summaries.push_back(strut ? strut.summary : "The drives " + strut.reason + ".");
   }
-  return response;
-}
-
-/// @throws std::runtime_error  in words for people, if there is nothing to be said of this strut.
-DiagnoseResponse toResponse(const VehicleDiagnosis& found, std::size_t strut, const SearchTask& task) {
-  const Diagnosis& its = found.struts[strut];
-  if (!its) tellLack(task.drive, its.reason + ": drive on");
-  DiagnoseResponse response = toResponse(its);
-  response.verdict = nameOf(found.verdictOn(strut));
-  response.selected = found.selected(strut);
-  return response;
-}
-
-/// @param answer  what there is to be said of what was found.
-template <class Service, class Answer>
-typename DiagnoseService<Service>::Search searchAll(SearchTask task, TakeDiagnosis take, const Answer& answer) {
-  return [task = std::move(task), take = std::move(take), answer](const SearchProgress& progress) mutable {
-    task.options.progress = progress;
-    const auto found =
-        std::make_shared<const VehicleDiagnosis>(diagnoseVehicle({task.drive}, task.struts, {task.options}));
-    if (!*found) tellLack(task.drive, found->coupling.reason);
-    return typename DiagnoseService<Service>::Outcome{answer(*found, task), [take, found] { take(*found); }};
-  };
 }
 
 }  // namespace
 
 template <class Service>
-DiagnoseService<Service>::DiagnoseService(const ros::NodeHandle& private_node, MonitorThread& nodelet_thread,
-                                          Prepare prepare)
-    : nodelet_thread_(nodelet_thread), prepare_(std::move(prepare)), spinner_(kThreads, &queue_) {
+DiagnoseService<Service>::DiagnoseService(const ros::NodeHandle& private_node, MonitorHost& host, std::size_t strut)
+    : host_(host), thread_(host.thread()), strut_(strut), spinner_(kThreads, &queue_) {
   ros::NodeHandle node(private_node);
   node.setCallbackQueue(&queue_);
   server_ = node.advertiseService("diagnose", &DiagnoseService<Service>::onDiagnose, this);
@@ -161,11 +136,15 @@ bool DiagnoseService<Service>::onDiagnose(Request& request, Response& response) 
 template <class Service>
 typename Service::Response DiagnoseService<Service>::answer(double window) {
   beNice();
-  const Search search = nodelet_thread_.run([this, window] { return prepare_(window); });
-  const Outcome outcome = search([this](double) { stopIfAsked(); });
+  SearchTask task = thread_.run([&] { return host_.samplesFor(window); });
+  task.options.progress = [this](double) { stopIfAsked(); };
+  const VehicleDiagnosis found = diagnoseVehicle({task.drive}, task.struts, {task.options});
+  if (!found) tellLack(task.drive, found.coupling.reason);
+  Response response;
+  setAnswer(found, task, strut_, response);
   stopIfAsked();
-  nodelet_thread_.run(outcome.take);
-  return outcome.response;
+  thread_.run([&] { host_.takeDiagnosis(found); });
+  return response;
 }
 
 template <class Service>
@@ -177,23 +156,5 @@ template class DiagnoseService<Diagnose>;
 template class DiagnoseService<DiagnoseVehicle>;
 
 void beNice() { setpriority(PRIO_PROCESS, 0, kNiceness); }
-
-double searchSpan(double window, double kept) {
-  if (!(window >= 0.0 && window <= kept))
-    refuse("window", window, "s", "in [0, " + numberText(kept) + "] (diagnose/window)");
-  return window > 0.0 ? window : kept;
-}
-
-DiagnoseService<DiagnoseVehicle>::Search searchOf(SearchTask task, TakeDiagnosis take) {
-  return searchAll<DiagnoseVehicle>(
-      std::move(task), std::move(take),
-      [](const VehicleDiagnosis& found, const SearchTask& its) { return toResponse(found, its.struts); });
-}
-
-DiagnoseService<Diagnose>::Search searchOf(SearchTask task, std::size_t strut, TakeDiagnosis take) {
-  return searchAll<Diagnose>(
-      std::move(task), std::move(take),
-      [strut](const VehicleDiagnosis& found, const SearchTask& its) { return toResponse(found, strut, its); });
-}
 
 }  // namespace suspension_health_monitor

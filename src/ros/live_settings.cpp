@@ -106,19 +106,18 @@ void LiveSettings::__toServer__(const ros::NodeHandle& node) const {
   }
 }
 
-bool LiveSettings::__fromMessage__(const dynamic_reconfigure::Config& message) {
-  bool known = message.bools.empty() && message.strs.empty();
+void LiveSettings::__fromMessage__(const dynamic_reconfigure::Config& message) {
   const auto take = [&](const auto& parameters) {
     for (const auto& parameter : parameters) {
       const auto found = values_.find(parameter.name);
-      if (found != values_.end()) found->second = parameter.value;
-      known = known && found != values_.end();
-      if (found == values_.end()) ROS_WARN("%s is not a setting that can change while running", parameter.name.c_str());
+      if (found == values_.end())
+        ROS_WARN("%s is not a setting that can change while running", parameter.name.c_str());
+      else
+        found->second = parameter.value;
     }
   };
   take(message.ints);
   take(message.doubles);
-  return known;
 }
 
 void LiveSettings::__toMessage__(dynamic_reconfigure::Config& message) const {
@@ -130,13 +129,10 @@ void LiveSettings::__toMessage__(dynamic_reconfigure::Config& message) const {
   PipelineOptions options;
   std::vector<std::string> groups = groupsOf(bindLive(options));
   groups.insert(groups.begin(), kTop);
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    dynamic_reconfigure::GroupState group;
-    group.name = groups[i];
-    group.state = true;
-    group.id = static_cast<int>(i);
-    message.groups.push_back(std::move(group));
-  }
+  dynamic_reconfigure::GroupState is_shown;
+  is_shown.state = true;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    ConfigTools::appendGroup(message, groups[i], static_cast<int>(i), 0, is_shown);
 }
 
 }  // namespace suspension_health_monitor

@@ -59,7 +59,7 @@ class LiveSettings {
   void __fromServer__(
       const ros::NodeHandle& node);  ///< @throws std::invalid_argument  as PipelineOptions::fromValues()
   void __toServer__(const ros::NodeHandle& node) const;
-  bool __fromMessage__(const dynamic_reconfigure::Config& message);  ///< what the message lacks stays
+  void __fromMessage__(const dynamic_reconfigure::Config& message);  ///< what the message lacks stays
   void __toMessage__(dynamic_reconfigure::Config& message) const;
   void __toMessage__(dynamic_reconfigure::Config& message, int, int) const { __toMessage__(message); }
   void __clamp__() {}

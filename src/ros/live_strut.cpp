@@ -3,8 +3,12 @@
 #include <ros/console.h>
 
 #include <stdexcept>
+#include <utility>
 
+#include "input_task.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -32,7 +36,7 @@ bool answer(Response& response, const Work& work) {
 
 }  // namespace
 
-LiveStrut::LiveStrut(StrutHost& host, std::size_t place, const VehicleOptions& options, const std::string& title)
+LiveStrut::LiveStrut(MonitorHost& host, std::size_t place, const VehicleOptions& options, const std::string& node_name)
     : host_(host),
       place_(place),
       name_(options.layout.struts[place].name),
@@ -40,7 +44,8 @@ LiveStrut::LiveStrut(StrutHost& host, std::size_t place, const VehicleOptions& o
       options_(options.struts[place]),
       model_(options_.shell, options.model_of[place]),
       baseline_(options_),
-      diagnostics_(title, options_.shell.input_timeout, model_, [this] { return host_.silentTopics(); }) {}
+      health_log_(name_.empty() ? node_name : name_),
+      drive_(name_.empty() ? node_name : name_, options_.shell.input_timeout) {}
 
 LiveStrut::~LiveStrut() {  // nothing may call back into members that are already gone
   diagnose_.reset();
@@ -54,9 +59,7 @@ ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHan
   publishModel();
   updater_.emplace(node, private_node, own.getNamespace());
   updater_->setHardwareID(own.getNamespace().substr(1));
-  updater_->add("Input", [this](auto& status) { host_.describeInput(place_, status); });
-  diagnostics_.addTo(
-      *updater_, [this] { return monitor(); }, [this] { return host_.whyNoMonitor(); });
+  addTasks();
   const auto serve = [&](const char* name, const auto& work) {
     return own.advertiseService<Trigger::Request, Trigger::Response>(
         name, [work](Trigger::Request&, Trigger::Response& response) { return answer(response, work); });
@@ -65,12 +68,38 @@ ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHan
                serve("save_model", [this] { return saveModel(); }),
                serve("save_baseline", [this] { return saveBaseline(); }),
                serve("reset", [this] { return host_.reset(); })};
-  diagnose_.emplace(own, host_.thread(), [this](double window) { return host_.searchFor(place_, window); });
+  diagnose_.emplace(own, host_, place_);
   return own;
 }
 
-const SuspensionMonitor* LiveStrut::monitor() const {
-  return host_.pipeline() != nullptr ? host_.pipeline()->strut(place_) : nullptr;
+void LiveStrut::addTasks() {
+  const auto addOfMonitor = [this](const char* task, const auto& describe) {
+    updater_->add(task, [this, describe](Status& status) {
+      if (monitor() != nullptr)
+        describe(status);
+      else
+        status.summary(Status::STALE, join({host_.whyNoMonitor(), describeSilent(host_.input().silentTopics())}, "; "));
+    });
+  };
+  updater_->add("Input", [this](Status& status) { host_.input().describeStrut(place_, status); });
+  addOfMonitor("Health", [this](Status& status) {
+    describeHealth(*monitor(), status);
+    describeSilence(status);
+    health_log_.note(status);
+    drive_.watchClock();
+  });
+  addOfMonitor("Model", [this](Status& status) { describeModel(model_, *monitor(), status); });
+}
+
+// A level describes the newest readings; once they are old, nobody knows it any more. Age is measured by the clock that
+// stamps the data, so that a simulation that is paused makes nothing old.
+void LiveStrut::describeSilence(Status& status) {
+  const ros::Time now = ros::Time::now();
+  const std::uint64_t samples = monitor()->input().samples;
+  if (!accepted_ || samples != accepted_->samples || now < accepted_->at) accepted_ = {samples, now};
+  const double silent = (now - accepted_->at).toSec();
+  if (silent <= options_.shell.input_timeout) return;
+  status.summary(Status::STALE, describeNoReading(silent, host_.input().silentTopics(), status.message));
 }
 
 void LiveStrut::begin(MessagePipeline& pipeline) const {
@@ -84,7 +113,8 @@ void LiveStrut::publishModel() {
 }
 
 void LiveStrut::publish(const MonitorReport& report) {
-  if (diagnostics_.note(report)) publishDiagnostics();
+  drive_.add(report);
+  if (std::exchange(level_, report.health.level) != report.health.level) publishDiagnostics();
   if (report.health.learned && !baseline_.known()) keepBaseline();
   reports_->publish(report, *monitor(), host_.frameOf(place_));
 }

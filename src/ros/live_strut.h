@@ -6,41 +6,28 @@
 #include <suspension_health_monitor/SetEffects.h>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "live_baseline.h"
 #include "live_model.h"
 #include "live_search.h"
-#include "message_pipeline.h"
+#include "monitor_host.h"
 #include "report_topics.h"
 #include "strut_diagnostics.h"
+#include "task_log.h"
 
 namespace suspension_health_monitor {
-
-/// The nodelet as its struts see it. Everything is called in its queue.
-class StrutHost {
- public:
-  virtual ~StrutHost() = default;
-  virtual MessagePipeline* pipeline() = 0;                            ///< nullptr: none yet
-  virtual std::string whyNoMonitor() = 0;                             ///< why the struts have no monitors
-  virtual std::vector<std::string> silentTopics() const = 0;          ///< as InputTask
-  virtual const std::string& frameOf(std::size_t strut) const = 0;    ///< frame_id of its body's IMU
-  virtual void describeInput(std::size_t strut, Status& status) = 0;  ///< of the strut's own sensors
-  virtual DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) = 0;
-  virtual std::string reset() = 0;      ///< tells what it has done
-  virtual MonitorThread& thread() = 0;  ///< that serves it
-};
 
 /// A live strut as others see it, alone or one of a vehicle: its topics, its tasks of /diagnostics, and its services,
 /// which change or keep what is known of it: set_effects, save_model, save_baseline, reset, diagnose.
 class LiveStrut {
  public:
   /// @param host  outlives this object.  @param place  among the struts.
-  /// @param title  of the strut, for the terminal.
+  /// @param node_name  of the nodelet: what a strut alone is called in the terminal.
   /// @throws std::invalid_argument  as LiveModel and LiveBaseline.
-  LiveStrut(StrutHost& host, std::size_t place, const VehicleOptions& options, const std::string& title);
+  LiveStrut(MonitorHost& host, std::size_t place, const VehicleOptions& options, const std::string& node_name);
   ~LiveStrut();
   LiveStrut(const LiveStrut&) = delete;
   LiveStrut& operator=(const LiveStrut&) = delete;
@@ -57,32 +44,40 @@ class LiveStrut {
   void publishModel();
   void publishDiagnostics() { updater_->force_update(); }
 
-  /// What the last ~diagnose found in it.
-  void setDiagnosis(const Diagnosis& diagnosis) { model_.setDiagnosis(diagnosis); }
-
   /// As ReportTopics::setStride().
   void setStride(int every) { reports_->setStride(every); }
 
-  const LiveModel& model() const { return model_; }
+  LiveModel& model() { return model_; }
   const LiveBaseline& baseline() const { return baseline_; }
 
  private:
   using Trigger = std_srvs::Trigger;
 
-  const SuspensionMonitor* monitor() const;  // nullptr: none yet
+  /// When a reading was accepted last, as seen from the reports.
+  struct Accepted {
+    std::uint64_t samples = 0;
+    ros::Time at;
+  };
+
+  const SuspensionMonitor* monitor() const { return host_.monitor(place_); }  // nullptr: none yet
   bool onSetEffects(SetEffectsRequest& request, SetEffectsResponse& response);
   std::string saveModel() const;
   std::string saveBaseline();
   std::optional<MotionScale> motionScaleNow() const;
   void keepBaseline();
+  void addTasks();
+  void describeSilence(Status& status);
 
-  StrutHost& host_;
+  MonitorHost& host_;
   std::size_t place_;
   std::string name_, prefix_;  // in logs and diagnostics
   PipelineOptions options_;
   LiveModel model_;
   LiveBaseline baseline_;
-  StrutDiagnostics diagnostics_;
+  TaskLog health_log_;
+  DriveSummary drive_;
+  std::optional<HealthLevel> level_;
+  std::optional<Accepted> accepted_;
   std::optional<ReportTopics> reports_;
   std::array<ros::ServiceServer, 4> services_;
   std::optional<DiagnoseService<Diagnose>> diagnose_;

@@ -86,7 +86,8 @@ VehicleDrive MessagePipeline::newestSamples(double span) const {
 }
 
 std::optional<MountClaim::Finding> MessagePipeline::mount(std::size_t sensor) const {
-  return mounts_[sensor].find(Eigen::Map<const Eigen::Vector3d>(sensors_.mount(sensor).up().data()));
+  const tf2::Vector3& up = sensors_.mount(sensor).up();
+  return mounts_[sensor].find({up.x(), up.y(), up.z()});
 }
 
 std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::string>& names) const {

@@ -1,11 +1,11 @@
 #include "monitor_nodelet.h"
 
-#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
 #include "parameters.h"
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -31,6 +31,7 @@ void MonitorNodelet::onInit() {
   startOrRefuse(private_node, [&] {
     options_ = optionsFrom(readParameters(private_node));
     placement_.emplace(options_.layout);
+    frames_.resize(placement_->streams().sensors.size());
     SensorTopics::Sinks sinks{
         [this](std::size_t imu, const sensor_msgs::Imu& message) { onImu(imu, message); },
         [this](std::size_t force, const geometry_msgs::WrenchStamped& message) { onMessage(force, message); },
@@ -39,31 +40,20 @@ void MonitorNodelet::onInit() {
         }};
     topics_.emplace(node, placement_->streams(), options_.temperatureTopics(),
                     !options_.common.shell.target_frame.empty() || options_.layout.hasFrames(), sinks);
-    addStruts();
+    for (std::size_t i = 0; i < options_.struts.size(); ++i)
+      prefixed(options_.prefix(i),
+               [&] { struts_.push_back(std::make_unique<LiveStrut>(*this, i, options_, getName())); });
     makePipeline();
   });
   thread_->run([&] { start(node, private_node); });  // there, so that no callback comes before all is set up
 }
 
-void MonitorNodelet::addStruts() {
-  StrutHost& host = *this;
-  for (std::size_t i = 0; i < options_.struts.size(); ++i) {
-    const std::string& name = options_.layout.struts[i].name;
-    prefixed(options_.prefix(i), [&] {
-      struts_.push_back(std::make_unique<LiveStrut>(host, i, options_, name.empty() ? getName() : name));
-    });
-  }
-}
-
 void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
-  input_.emplace(options_, placement_->streams(), topics_->names());
-  input_log_.emplace(getName() + " input", Status::ERROR, options_.common.shell.input_timeout);
-  if (!isAlone())
-    diagnostics_.emplace(node, private_node, getName(), options_, *placement_,
-                         [this](Status& status) { describeInput(status); });
+  input_.emplace(*this, getName(), options_, placement_->streams(), topics_->names());
+  if (!isAlone()) diagnostics_.emplace(*this, node, private_node, getName(), options_);
   std::vector<ros::NodeHandle> own;
   for (const auto& strut : struts_) own.push_back(strut->start(node, private_node));
-  curves_.emplace(own, thread(), [this](Stamp last) { return curveTask(last); });
+  curves_.emplace(*this, own, options_.common.shell.diagnose_window);
   topics_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);
   tick_ = node.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { onTick(); });
@@ -88,10 +78,13 @@ void MonitorNodelet::startVehicle(ros::NodeHandle& private_node) {
   body_ = private_node.createWallTimer(ros::WallDuration(kBodyPeriod), [this](const ros::WallTimerEvent&) {
     if (pipeline_ && pipeline_->monitor() != nullptr) pipeline_->monitor()->fitBodyIfDue();
   });
-  reset_ = private_node.advertiseService("reset", &MonitorNodelet::onReset, this);
-  diagnose_.emplace(private_node, thread(), [this](double window) {
-    return searchOf(samplesFor(window), [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
+  using Trigger = std_srvs::Trigger;
+  reset_ = private_node.advertiseService<Trigger::Request, Trigger::Response>("reset", [this](auto&, auto& response) {
+    response.success = true;
+    response.message = reset();
+    return true;
   });
+  diagnose_.emplace(private_node, *this);
 }
 
 void MonitorNodelet::makePipeline() {
@@ -104,16 +97,14 @@ void MonitorNodelet::makePipeline() {
   for (const auto& strut : struts_) strut->begin(*pipeline_);
 }
 
-void MonitorNodelet::describeInput(Status& status) {
-  input_->describe(pipeline(), placement_->missing(), status);
-  input_log_->note(status);
-}
-
-void MonitorNodelet::describeInput(std::size_t strut, Status& status) {
-  isAlone() ? describeInput(status) : input_->describeStrut(strut, pipeline(), placement_->missing(), status);
+std::string MonitorNodelet::whyNoMonitor() {
+  if (!pipeline_) return placement_->missing();
+  if (pipeline_->monitor() == nullptr) return kMeasuringPeriod;
+  return "the drives so far " + whyNotCoupled(pipeline_->monitor()->mistake(), options_.strutNames());
 }
 
 void MonitorNodelet::onImu(std::size_t imu, const sensor_msgs::Imu& message) {
+  frames_[imu] = message.header.frame_id;
   if (!pipeline_ && placement_->streams().sensors[imu].place == VehicleStreams::Place::kBody)
     placement_->noteBody(message);
   onMessage(imu, message);
@@ -126,7 +117,9 @@ void MonitorNodelet::onMessage(std::size_t sensor, const Message& message) {
   try {
     pipeline_->push(sensor, message);
   } catch (const std::invalid_argument& error) {  // the options do not fit what was measured
-    stopListening(error.what());
+    NODELET_ERROR("stopped listening until reset: %s", error.what());
+    input_->setRefusal(error.what());
+    topics_->stop();
   }
 }
 
@@ -142,16 +135,10 @@ void MonitorNodelet::onReconfigure(LiveSettings& settings) {
   settings = LiveSettings(options_.common);
 }
 
-void MonitorNodelet::stopListening(const std::string& reason) {
-  NODELET_ERROR("stopped listening until reset: %s", reason.c_str());
-  input_->setRefusal(reason);
-  topics_->stop();
-}
-
 void MonitorNodelet::onTick() {
   if (!isAlone()) {
     if (!pipeline_) makePipeline();
-    diagnostics_->publish(pipeline());
+    diagnostics_->publish();
   }
   for (const auto& strut : struts_) strut->publishDiagnostics();
 }
@@ -165,20 +152,12 @@ std::string MonitorNodelet::reset() {
                    : "estimates, coupling, filters and counters of the whole vehicle start anew";
 }
 
-bool MonitorNodelet::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  response.success = true;
-  response.message = reset();
-  return true;
-}
-
-DiagnoseService<Diagnose>::Search MonitorNodelet::searchFor(std::size_t strut, double window) {
-  return searchOf(samplesFor(window), strut, [this](const VehicleDiagnosis& found) { takeDiagnosis(found); });
-}
-
 SearchTask MonitorNodelet::samplesFor(double window) {
-  const double span = searchSpan(window, options_.common.shell.diagnose_window);
+  const double kept = options_.common.shell.diagnose_window;
+  if (!(window >= 0.0 && window <= kept))
+    refuse("window", window, "s", "in [0, " + numberText(kept) + "] (diagnose/window)");
   if (!pipeline_ || pipeline_->monitor() == nullptr) throw std::runtime_error(whyNoMonitor() + ": drive on");
-  SearchTask task{pipeline_->newestSamples(span), options_.strutNames(), {}};
+  SearchTask task{pipeline_->newestSamples(window > 0.0 ? window : kept), options_.strutNames(), {}};
   pipeline_->grid()->describe(task.drive);
   if (task.drive.struts.front().samples.empty()) throw std::runtime_error("there are no samples yet: drive on");
   task.options.sample_period = pipeline_->period();
@@ -190,25 +169,9 @@ SearchTask MonitorNodelet::samplesFor(double window) {
   return task;
 }
 
-std::optional<CurveTask> MonitorNodelet::curveTask(Stamp last) {
-  if (!pipeline_ || pipeline_->strut() == nullptr) return std::nullopt;
-  CurveTask task;
-  bool is_known = false;
-  for (std::size_t i = 0; i < struts_.size(); ++i) {
-    task.models.push_back(modelOf(pipeline_->strut(i)));
-    is_known = is_known || task.models.back();
-    task.frames.push_back(frameOf(i));
-  }
-  const Stamp newest = pipeline_->strut()->report().stamp;
-  if (!is_known || (newest >= last && newest - last < LiveCurves::kEvery)) return std::nullopt;
-  task.search =
-      samplesFor(std::min(options_.common.shell.diagnose_window, LiveCurves::kMostSamples * *pipeline_->period()));
-  return task;
-}
-
 void MonitorNodelet::takeDiagnosis(const VehicleDiagnosis& found) {
   for (std::size_t i = 0; i < struts_.size(); ++i)
-    if (found.struts[i]) struts_[i]->setDiagnosis(found.struts[i]);
+    if (found.struts[i]) struts_[i]->model().setDiagnosis(found.struts[i]);
   onTick();
 }
 

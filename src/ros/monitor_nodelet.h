@@ -17,9 +17,9 @@
 #include "live_settings.h"
 #include "live_strut.h"
 #include "message_pipeline.h"
+#include "monitor_host.h"
 #include "monitor_thread.h"
 #include "sensor_topics.h"
-#include "task_log.h"
 #include "vehicle_diagnostics.h"
 #include "vehicle_options.h"
 #include "vehicle_sensors.h"
@@ -30,7 +30,7 @@ namespace suspension_health_monitor {
 /// name, and how the struts move one another. One strut alone is a vehicle with one strut, whose topics are those of
 /// the node and whose settings may change while it runs. Every callback comes from one thread, that of all monitors of
 /// the process, so nothing here needs a lock; ~diagnose works beside it.
-class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
+class MonitorNodelet : public nodelet::Nodelet, public MonitorHost {
  public:
   ~MonitorNodelet() override;
 
@@ -47,32 +47,25 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void startAlone(ros::NodeHandle& private_node);
   void startVehicle(ros::NodeHandle& private_node);
-  void addStruts();
   void makePipeline();
 
-  void describeInput(Status& status);
   void onImu(std::size_t imu, const sensor_msgs::Imu& message);
   template <class Message>
   void onMessage(std::size_t sensor, const Message& message);
   void onReconfigure(LiveSettings& settings);
   void onTick();
-  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  SearchTask samplesFor(double window);
-  std::optional<CurveTask> curveTask(Stamp last);
-  void takeDiagnosis(const VehicleDiagnosis& found);
-  void stopListening(const std::string& reason);
 
-  // As its struts see it:
-  MessagePipeline* pipeline() override { return pipeline_ ? &*pipeline_ : nullptr; }
-  std::string whyNoMonitor() override { return isAlone() ? kMeasuringPeriod : diagnostics_->whyNoMonitor(pipeline()); }
-  std::vector<std::string> silentTopics() const override { return input_->silentTopics(); }
-  const std::string& frameOf(std::size_t strut) const override {
-    return topics_->frame(placement_->streams().bodyImuOf(strut));
-  }
-  void describeInput(std::size_t strut, Status& status) override;
-  DiagnoseService<Diagnose>::Search searchFor(std::size_t strut, double window) override;
-  std::string reset() override;
+  // As its parts see it:
   MonitorThread& thread() override { return *thread_; }
+  MessagePipeline* pipeline() override { return pipeline_ ? &*pipeline_ : nullptr; }
+  std::string whyNoMonitor() override;
+  InputTask& input() override { return *input_; }
+  const std::string& frameOf(std::size_t strut) const override {
+    return frames_[placement_->streams().bodyImuOf(strut)];
+  }
+  SearchTask samplesFor(double window) override;
+  void takeDiagnosis(const VehicleDiagnosis& found) override;
+  std::string reset() override;
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
@@ -81,7 +74,7 @@ class MonitorNodelet : public nodelet::Nodelet, private StrutHost {
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
   std::vector<std::unique_ptr<LiveStrut>> struts_;
   std::optional<InputTask> input_;
-  std::optional<TaskLog> input_log_;
+  std::vector<std::string> frames_;  // by sensor, of its newest message; empty before the first
   ros::WallTimer tick_, body_;
   std::optional<LiveCurves> curves_;
   // Of one strut alone:

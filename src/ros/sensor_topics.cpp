@@ -15,13 +15,7 @@ SensorTopics::SensorTopics(const ros::NodeHandle& node, const VehicleStreams& st
       sensors_(streams.sensors),
       thermometers_(thermometers),
       by_transforms_(by_transforms),
-      sinks_(sinks),
-      frames_(sensors_.size()) {
-  sinks_.imu = [this, receive = sinks.imu](std::size_t imu, const sensor_msgs::Imu& message) {
-    frames_[imu] = message.header.frame_id;
-    receive(imu, message);
-  };
-}
+      sinks_(sinks) {}
 
 SensorTopics::~SensorTopics() {  // nothing may call back into members that are already gone
   static_transforms_.shutdown();

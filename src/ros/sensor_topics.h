@@ -45,9 +45,6 @@ class SensorTopics {
   /// @return the topics' whole names, by sensor.
   std::vector<std::string> names() const;
 
-  /// @return frame_id of an IMU; empty before its first message.
-  const std::string& frame(std::size_t imu) const { return frames_[imu]; }
-
   /// @return the static transforms so far.
   const tf2::BufferCore& transforms() const { return transforms_; }
 
@@ -61,7 +58,6 @@ class SensorTopics {
   std::vector<std::string> thermometers_;
   bool by_transforms_;
   Sinks sinks_;
-  std::vector<std::string> frames_;  // by sensor
   tf2::BufferCore transforms_;
   ros::Subscriber static_transforms_;
   std::vector<ros::Subscriber> subscribers_;

@@ -139,11 +139,12 @@ MessagesOnTopics messagesOf(const VehicleSimulationOptions& options, const Vehic
   return messages;
 }
 
+/// @param complete  an instant that has a message of every sensor: these tell the topics.
 /// @param parts  of the options, which the simulator is made of.
-/// @return a drive without topics.
-template <class Simulator, class Options, class... Parts>
-SimulatedDrive driveWith(const Options& options, const Parts&... parts) {
+template <class Simulator, class Options, class Instant, class... Parts>
+SimulatedDrive driveWith(const Options& options, const Instant& complete, const Parts&... parts) {
   SimulatedDrive drive;
+  drive.topics = messagesOf(options, complete, Stamp::zero());
   drive.playing = options.playing;
   drive.duration = options.drive.duration;
   drive.begin = [options, parts...](Stamp start) -> DriveSource {
@@ -159,29 +160,24 @@ SimulatedDrive driveWith(const Options& options, const Parts&... parts) {
 }  // namespace
 
 SimulatedDrive driveOf(const SimulatorOptions& options) {
-  SimulatedDrive drive = driveWith<DriveSimulator>(options, options.drive);
+  DriveSample complete;
+  complete.sprung = complete.unsprung = complete.road = AccelerometerReading();
+  SimulatedDrive drive = driveWith<DriveSimulator>(options, complete, options.drive);
   drive.rate = fasterRate(options.drive);
-  drive.topics = {{kSprungTopic, sensor_msgs::Imu()}, {kUnsprungTopic, sensor_msgs::Imu()}};
-  if (options.publishing.road_imu) drive.topics.emplace_back(kRoadTopic, sensor_msgs::Imu());
-  drive.topics.emplace_back(kTruthTopic, SimulationTruth());
   drive.awaited = {kSprungTopic, kUnsprungTopic};
   return drive;
 }
 
 SimulatedDrive driveOf(const VehicleSimulationOptions& options) {
-  SimulatedDrive drive = driveWith<VehicleSimulator>(options, options.vehicle, options.drive);
+  const Vehicle& vehicle = options.vehicle;
+  VehicleInstant complete;
+  complete.struts.assign(vehicle.struts.size(), {AccelerometerReading(), AccelerometerReading()});
+  complete.body.emplace();
+  complete.known_forces.resize(vehicle.known_forces.size());
+  complete.truth.struts.resize(vehicle.struts.size());
+  SimulatedDrive drive = driveWith<VehicleSimulator>(options, complete, vehicle, options.drive);
   drive.rate = options.drive.rate;
-  for (std::size_t i = 0; i < options.vehicle.struts.size(); ++i) {
-    const VehicleStrut& strut = options.vehicle.struts[i];
-    if (options.has_sprung_imu[i]) drive.topics.emplace_back(sprungTopic(strut), sensor_msgs::Imu());
-    drive.topics.emplace_back(unsprungTopic(strut), sensor_msgs::Imu());
-    drive.topics.emplace_back(truthTopic(strut), SimulationTruth());
-    drive.awaited.push_back(unsprungTopic(strut));
-  }
-  drive.topics.emplace_back(kBodyImuTopic, sensor_msgs::Imu());
-  for (const KnownForce& force : options.vehicle.known_forces)
-    drive.topics.emplace_back(wrenchTopic(force), geometry_msgs::WrenchStamped());
-  drive.topics.emplace_back(kTruthTopic, VehicleSimulationTruth());
+  for (const VehicleStrut& strut : vehicle.struts) drive.awaited.push_back(unsprungTopic(strut));
   return drive;
 }
 

@@ -42,7 +42,7 @@ struct SimulatedDrive {
   PlayingOptions playing;
   double duration = 0.0;             ///< [s]
   double rate = 0.0;                 ///< of the fastest sensor [Hz]
-  MessagesOnTopics topics;           ///< all that it has, each with an empty message of its type
+  MessagesOnTopics topics;           ///< all that it has, each with a message of its type
   std::vector<std::string> awaited;  ///< topics that somebody must listen to before the drive begins
   std::function<DriveSource(Stamp start)> begin;
 };

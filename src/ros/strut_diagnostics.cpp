@@ -16,9 +16,9 @@ namespace {
 // The worst first; that nothing is known is no level of the strut.
 constexpr std::array kLevels{HealthLevel::kError, HealthLevel::kWarn, HealthLevel::kOk, HealthLevel::kStale};
 
-std::string describe(const char* name, const StrutEstimate& estimate) {
-  if (!estimate.valid()) return formatted("%s not valid: %s", name, describe(estimate.doubt).c_str());
-  return formatted("%s: damping/mass %.4g +- %.2g 1/s, stiffness/mass %.4g +- %.2g 1/s^2", name,
+std::string describe(const StrutEstimate& estimate) {
+  if (!estimate.valid()) return "estimate not valid: " + describe(estimate.doubt);
+  return formatted("estimate: damping/mass %.4g +- %.2g 1/s, stiffness/mass %.4g +- %.2g 1/s^2",
                    estimate.damping_to_mass, estimate.damping_to_mass_stddev, estimate.stiffness_to_mass,
                    estimate.stiffness_to_mass_stddev);
 }
@@ -68,7 +68,7 @@ void DriveSummary::tell(const char* until, void (*say)(const std::string& line))
   say(formatted("%s: driven for %.1f s%s, worst level %s (%s)", strut_.c_str(), toSeconds(times_.elapsed()), until,
                 nameOf(*worst), join(levels).c_str()));
   say(strut_ + ": at the end " + nameOf(newest_.health.level) + ", " + describe(newest_.health));
-  say(strut_ + ": " + describe("estimate", newest_.estimate));
+  say(strut_ + ": " + describe(newest_.estimate));
 }
 
 namespace {
@@ -86,35 +86,28 @@ void addJudgement(Status& status, const std::string& name, const std::optional<d
   if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
 }
 
+void describeDiagnosis(const LiveModel& model, Status& status) {
+  const std::optional<Diagnosis>& diagnosis = model.diagnosis();
+  if (!diagnosis) return;
+  if (const std::vector<std::string> missing = model.missing(); !missing.empty())
+    status.mergeSummary(Status::WARN, std::string("the last diagnosis ") +
+                                          (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
+                                          ", not in the model: " + join(missing, ", "));
+  if (diagnosis->verdict == Verdict::kUnexplained)
+    status.mergeSummary(Status::WARN, "the last diagnosis: something is missing that no effect explains");
+  status.add("diagnosed", nameOf(diagnosis->verdict));
+  status.add("diagnosed effects", join(diagnosis->selected, ", "));
+  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * diagnosis->structured_share);
+  status.addf("diagnosed noise floor [m/s^2]", "%.4g", diagnosis->noise_floor);
+  status.addf("diagnosed from stamp [s]", "%.3f", toSeconds(diagnosis->from));
+  status.addf("diagnosed to stamp [s]", "%.3f", toSeconds(diagnosis->to));
+}
+
 }  // namespace
 
-void StrutDiagnostics::addTo(diagnostic_updater::Updater& updater, const Find& find,
-                             const std::function<std::string()>& why_none) {
-  const auto add = [&](const char* task, void (StrutDiagnostics::*describe)(const SuspensionMonitor&, Status&)) {
-    updater.add(task, [this, find, why_none, describe](Status& status) {
-      if (const SuspensionMonitor* monitor = find())
-        (this->*describe)(*monitor, status);
-      else
-        status.summary(Status::STALE, join({why_none(), describeSilent(silent_())}, "; "));
-    });
-  };
-  add("Health", &StrutDiagnostics::describeHealth);
-  add("Model", &StrutDiagnostics::describeModel);
-}
-
-bool StrutDiagnostics::note(const MonitorReport& report) {
-  drive_.add(report);
-  const bool changed = level_ != report.health.level;
-  level_ = report.health.level;
-  return changed;
-}
-
-void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& status) {
+void describeHealth(const SuspensionMonitor& monitor, Status& status) {
   const MonitorReport& report = monitor.report();
   status.summary(static_cast<unsigned char>(report.health.level), describe(report.health));
-  describeSilence(monitor, status);
-  log_.note(status);
-  drive_.watchClock();
   addEstimate(status, "estimate", report.estimate);
   status.addf("estimate age [s]", "%.1f", report.estimate.age);
   addEstimate(status, "la", report.la);
@@ -134,19 +127,8 @@ void StrutDiagnostics::describeHealth(const SuspensionMonitor& monitor, Status& 
   status.add("sensor fault", describe(report.health.sensor));
 }
 
-// A level describes the newest readings; once they are old, nobody knows it any more. Age is measured by the clock that
-// stamps the data, so that a simulation that is paused makes nothing old.
-void StrutDiagnostics::describeSilence(const SuspensionMonitor& monitor, Status& status) {
-  const ros::Time now = ros::Time::now();
-  const std::uint64_t samples = monitor.input().samples;
-  if (!accepted_ || samples != accepted_->samples || now < accepted_->at) accepted_ = {samples, now};
-  const double silent = (now - accepted_->at).toSec();
-  if (silent <= input_timeout_) return;
-  status.summary(Status::STALE, describeNoReading(silent, silent_(), status.message));
-}
-
-void StrutDiagnostics::describeModel(const SuspensionMonitor& monitor, Status& status) {
-  status.summary(Status::OK, model_.describe());
+void describeModel(const LiveModel& model, const SuspensionMonitor& monitor, Status& status) {
+  status.summary(Status::OK, model.describe());
   const ComparisonReport& comparison = monitor.report().comparison;
   status.addf("rmse [m/s^2]", "%.4g", comparison.rmse);
   status.addf("fit [%]", "%.2f", comparison.fit_percent);
@@ -154,24 +136,7 @@ void StrutDiagnostics::describeModel(const SuspensionMonitor& monitor, Status& s
   status.addf("base fit [%]", "%.2f", comparison.base_fit_percent);
   for (const ActiveEffect& active : monitor.effects())
     status.addf(active.effect.name + " [" + active.effect.unit + "]", "%.5g", active.coefficient);
-  describeDiagnosis(status);
-}
-
-void StrutDiagnostics::describeDiagnosis(Status& status) const {
-  const std::optional<Diagnosis>& diagnosis = model_.diagnosis();
-  if (!diagnosis) return;
-  if (const std::vector<std::string> missing = model_.missing(); !missing.empty())
-    status.mergeSummary(Status::WARN, std::string("the last diagnosis ") +
-                                          (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
-                                          ", not in the model: " + join(missing, ", "));
-  if (diagnosis->verdict == Verdict::kUnexplained)
-    status.mergeSummary(Status::WARN, "the last diagnosis: something is missing that no effect explains");
-  status.add("diagnosed", nameOf(diagnosis->verdict));
-  status.add("diagnosed effects", join(diagnosis->selected, ", "));
-  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * diagnosis->structured_share);
-  status.addf("diagnosed noise floor [m/s^2]", "%.4g", diagnosis->noise_floor);
-  status.addf("diagnosed from stamp [s]", "%.3f", toSeconds(diagnosis->from));
-  status.addf("diagnosed to stamp [s]", "%.3f", toSeconds(diagnosis->to));
+  describeDiagnosis(model, status);
 }
 
 }  // namespace suspension_health_monitor

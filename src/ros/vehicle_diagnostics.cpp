@@ -7,7 +7,7 @@
 #include <boost/make_shared.hpp>
 
 #include "conversions.h"
-#include "strut_diagnostics.h"
+#include "input_task.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -145,10 +145,9 @@ void CornerOutput::describe(Status& status) const {
 
 // Who advertises first decides how long the queue is: an Updater's own holds one message, and all of them publish at
 // once, so that the status of a strut would be lost behind that of the next.
-VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
-                                       const VehicleOptions& options, const VehiclePlacement& placement,
-                                       const std::function<void(Status&)>& describe_input)
-    : placement_(placement),
+VehicleDiagnostics::VehicleDiagnostics(MonitorHost& host, ros::NodeHandle& node, ros::NodeHandle& private_node,
+                                       const std::string& name, const VehicleOptions& options)
+    : host_(host),
       struts_(options.strutNames()),
       forces_(options.forceNames()),
       diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 2 * (struts_.size() + 1))),
@@ -160,30 +159,28 @@ VehicleDiagnostics::VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& p
     describeCoupling(status);
     coupling_log_.note(status);
   });
-  updater_.add("Input", describe_input);
+  updater_.add("Input", [this](Status& status) { host_.input().describe(status); });
   if (const std::optional<CornerPlaces> places = cornersAmong(struts_)) corners_.emplace(node, *places);
   if (corners_) updater_.add("Corners", [this](Status& status) { corners_->describe(status); });
 }
 
-void VehicleDiagnostics::publish(const MessagePipeline* pipeline) {
-  pipeline_ = pipeline;
+void VehicleDiagnostics::publish() {
   publishCoupling();
-  if (corners_) corners_->publish(pipeline);
+  if (corners_) corners_->publish(host_.pipeline());
   updater_.force_update();
-  pipeline_ = nullptr;
 }
 
 VehicleCoupling VehicleDiagnostics::coupling() const {
   if (monitor() != nullptr) return couplingOf(*monitor(), struts_, forces_);
   VehicleCoupling none;
-  none.reason = whyNoMonitor(pipeline_);
+  none.reason = host_.whyNoMonitor();
   return none;
 }
 
 void VehicleDiagnostics::publishCoupling() {
   CouplingInUse msg = toMsg(coupling(), monitor(), struts_, forces_);
   if (last_coupling_ && saysTheSame(*last_coupling_, msg)) return;
-  if (pipeline_ != nullptr) msg.header.stamp = toRosTime(pipeline_->newest());
+  if (host_.pipeline() != nullptr) msg.header.stamp = toRosTime(host_.pipeline()->newest());
   coupling_.publish(msg);
   last_coupling_ = msg;
 }
@@ -210,13 +207,6 @@ void VehicleDiagnostics::describeCoupling(Status& status) const {
     for (const KnownForceCoefficients& force : known.forces)
       status.addf(struts_[i] + " moved by " + force.name, "%.4g +- %.2g m/s^2 per unit", force.values[i],
                   force.stddevs[i]);
-}
-
-std::string VehicleDiagnostics::whyNoMonitor(const MessagePipeline* pipeline) const {
-  if (pipeline == nullptr) return placement_.missing();
-  const VehicleMonitor* its = pipeline->monitor();
-  if (its == nullptr) return kMeasuringPeriod;
-  return "the drives so far " + suspension_health_monitor::whyNotCoupled(its->mistake(), struts_);
 }
 
 }  // namespace suspension_health_monitor

@@ -4,18 +4,16 @@
 #include <ros/ros.h>
 #include <suspension_health_monitor/CouplingInUse.h>
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "message_pipeline.h"
+#include "monitor_host.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_monitor.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "task_log.h"
 #include "vehicle_options.h"
-#include "vehicle_sensors.h"
 
 namespace suspension_health_monitor {
 
@@ -44,31 +42,25 @@ class CornerOutput {
 /// the struts move one another as the latched topic ~coupling; and corners/comparison.
 class VehicleDiagnostics {
  public:
-  /// @param placement  outlives this object.
-  VehicleDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
-                     const VehicleOptions& options, const VehiclePlacement& placement,
-                     const std::function<void(Status&)>& describe_input);
+  /// @param host  outlives this object.
+  VehicleDiagnostics(MonitorHost& host, ros::NodeHandle& node, ros::NodeHandle& private_node, const std::string& name,
+                     const VehicleOptions& options);
 
-  /// @param pipeline  nullptr: none, as the struts have no places yet.
-  void publish(const MessagePipeline* pipeline);
-
-  /// @return why the struts have no monitors.
-  std::string whyNoMonitor(const MessagePipeline* pipeline) const;
+  void publish();
 
  private:
-  const VehicleMonitor* monitor() const { return pipeline_ != nullptr ? pipeline_->monitor() : nullptr; }
+  const VehicleMonitor* monitor() const { return host_.pipeline() != nullptr ? host_.pipeline()->monitor() : nullptr; }
   VehicleCoupling coupling() const;
   void publishCoupling();
   void describeCoupling(Status& status) const;
 
-  const VehiclePlacement& placement_;
+  MonitorHost& host_;
   std::vector<std::string> struts_, forces_;  // their names
   ros::Publisher diagnostics_;                // of all updaters, also of those of the struts
   ros::Publisher coupling_;
   std::optional<CouplingInUse> last_coupling_;  // that was published
   TaskLog coupling_log_;
   std::optional<CornerOutput> corners_;
-  const MessagePipeline* pipeline_ = nullptr;  // during publish() only
   diagnostic_updater::Updater updater_;
 };
 

@@ -1,6 +1,5 @@
 #include "vehicle_sensors.h"
 
-#include <tf2/LinearMath/Matrix3x3.h>
 #include <tf2/LinearMath/Quaternion.h>
 
 #include <algorithm>
@@ -20,11 +19,11 @@ using Place = VehicleStreams::Place;
 constexpr double kEndOfRange = 0.999;
 
 // Axes with a zero in the direction are left out of the sum, since a sensor may read NaN on an axis that it lacks.
-double along(const std::array<double, 3>& direction, const geometry_msgs::Vector3& v) {
+double along(const tf2::Vector3& direction, const geometry_msgs::Vector3& v) {
   double sum = 0.0;
-  if (direction[0] != 0.0) sum += direction[0] * v.x;
-  if (direction[1] != 0.0) sum += direction[1] * v.y;
-  if (direction[2] != 0.0) sum += direction[2] * v.z;
+  if (direction.x() != 0.0) sum += direction.x() * v.x;
+  if (direction.y() != 0.0) sum += direction.y() * v.y;
+  if (direction.z() != 0.0) sum += direction.z() * v.z;
   return sum;
 }
 
@@ -51,10 +50,10 @@ ImuMount mountOf(Place place, const ShellOptions& options, const tf2::BufferCore
 
 ImuMount::ImuMount(const std::string& axis, const std::string& target_frame, const std::optional<double>& range,
                    const tf2::BufferCore* transforms)
-    : axes_{}, target_frame_(withoutSlash(target_frame)), range_(range), transforms_(transforms) {
+    : target_frame_(withoutSlash(target_frame)), range_(range), transforms_(transforms) {
   // The two axes across the strut follow the upward one in the order x, y, z, which makes the three right-handed. If
   // the upward one has a minus, one of the two must have it as well for them to stay so.
-  const auto up = static_cast<std::size_t>(axis.back() - 'x');
+  const int up = axis.back() - 'x';
   const double sign = axis.front() == '-' ? -1.0 : 1.0;
   axes_[0][(up + 1) % 3] = 1.0;
   axes_[1][(up + 2) % 3] = sign;
@@ -68,7 +67,7 @@ std::optional<RejectReason> ImuMount::read(const sensor_msgs::Imu& imu, bool six
     return RejectReason::kNoTransform;
   if (isClipped(imu.linear_acceleration)) return RejectReason::kClipped;
   if (!six_axes) {
-    values.push_back(along(directions_[2], imu.linear_acceleration));
+    values.push_back(along(up(), imu.linear_acceleration));
     return std::nullopt;
   }
   if (imu.angular_velocity_covariance[0] == -1.0) return RejectReason::kNotMeasured;
@@ -84,10 +83,7 @@ bool ImuMount::findTransform(const std::string& frame) {
   const geometry_msgs::Quaternion q =
       transforms_->lookupTransform(target_frame_, source, ros::Time()).transform.rotation;
   const tf2::Matrix3x3 rotation(tf2::Quaternion(q.x, q.y, q.z, q.w));  // from the IMU's axes to those of the target
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const tf2::Vector3 axis(axes_[i][0], axes_[i][1], axes_[i][2]);
-    for (std::size_t j = 0; j < 3; ++j) directions_[i][j] = rotation.getColumn(static_cast<int>(j)).dot(axis);
-  }
+  directions_ = axes_ * rotation;
   frame_ = frame;
   missing_.clear();
   return true;
@@ -96,9 +92,8 @@ bool ImuMount::findTransform(const std::string& frame) {
 bool ImuMount::isClipped(const geometry_msgs::Vector3& acceleration) const {
   if (!range_) return false;
   const double end = kEndOfRange * *range_;
-  const Direction& up = directions_[2];
-  return (up[0] != 0.0 && std::abs(acceleration.x) >= end) || (up[1] != 0.0 && std::abs(acceleration.y) >= end) ||
-         (up[2] != 0.0 && std::abs(acceleration.z) >= end);
+  return (up().x() != 0.0 && std::abs(acceleration.x) >= end) || (up().y() != 0.0 && std::abs(acceleration.y) >= end) ||
+         (up().z() != 0.0 && std::abs(acceleration.z) >= end);
 }
 
 std::array<double, 3> ImuMount::turned(const geometry_msgs::Vector3& v) const {
@@ -106,12 +101,8 @@ std::array<double, 3> ImuMount::turned(const geometry_msgs::Vector3& v) const {
 }
 
 BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {
-  const auto both = [this](const geometry_msgs::Vector3& v) -> std::array<double, 2> {
-    const std::array<double, 3> all = turned(v);
-    return {all[0], all[1]};
-  };
-  BodyMotion motion{toStamp(imu.header.stamp), both(imu.linear_acceleration), both(imu.angular_velocity)};
-  if (imu.linear_acceleration_covariance[0] == -1.0) motion.acceleration = {kUnknown, kUnknown};
+  const std::array<double, 3> acceleration = turned(imu.linear_acceleration), rate = turned(imu.angular_velocity);
+  BodyMotion motion{toStamp(imu.header.stamp), {acceleration[0], acceleration[1]}, {rate[0], rate[1]}};
   if (imu.angular_velocity_covariance[0] == -1.0) motion.angular_rate = {kUnknown, kUnknown};
   return motion;
 }
@@ -168,6 +159,7 @@ void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const Shell
                                   (from.empty() ? "which has no frame_id" : from));
     strut.position = mount.turned(transforms.lookupTransform(from, to, ros::Time()).transform.translation);
   }
+  requireApart(layout);
 }
 
 VehiclePlacement::VehiclePlacement(const VehicleLayout& layout) : layout_(layout), streams_(streamsAnywhere(layout)) {}
@@ -178,12 +170,12 @@ std::optional<VehicleStreams> VehiclePlacement::find(const ShellOptions& options
   VehicleLayout placed = layout_;
   try {
     placeFrames(placed, *body_message_, options, transforms);
+    for (VehicleLayout::Strut& strut : placed.struts) strut.frame.reset();
+    return VehicleStreams(placed);
   } catch (const std::invalid_argument& error) {
     missing_ = error.what();
     return std::nullopt;
   }
-  for (VehicleLayout::Strut& strut : placed.struts) strut.frame.reset();
-  return VehicleStreams(placed);
 }
 
 }  // namespace suspension_health_monitor

@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/Imu.h>
+#include <tf2/LinearMath/Matrix3x3.h>
 #include <tf2/buffer_core.h>
 
 #include <array>
@@ -37,31 +38,28 @@ class ImuMount {
   /// kNoTransform, kClipped.
   std::optional<RejectReason> read(const sensor_msgs::Imu& imu, bool six_axes, std::vector<double>& values);
 
-  /// @return what the IMU measures across the strut; NaN what it says it does not measure.
-  /// @pre read() has found the transform.
+  /// @return what the IMU measures across the strut; the rates are NaN if the message says that they are not measured.
+  /// @pre read() has taken the message.
   BodyMotion across(const sensor_msgs::Imu& imu) const;
 
   /// @param v  in the IMU's frame.
   /// @return its components along the strut's axes.
-  /// @pre as across().
+  /// @pre read() has found the transform.
   std::array<double, 3> turned(const geometry_msgs::Vector3& v) const;
 
   /// @return the direction up along the strut, in the IMU's axes.
-  const std::array<double, 3>& up() const { return directions_[2]; }
+  const tf2::Vector3& up() const { return directions_[2]; }
 
   /// @return the frame of the IMU whose transform is missing; empty if none is.
   const std::string& missingTransform() const { return missing_; }
 
  private:
-  /// A direction of the strut in the IMU's axes: a unit vector.
-  using Direction = std::array<double, 3>;
-
   bool findTransform(const std::string& frame);
   bool isClipped(const geometry_msgs::Vector3& acceleration) const;
 
-  // Two directions across the strut and the one up along it:
-  std::array<Direction, 3> axes_;        // in the target frame; without one, in the IMU itself
-  std::array<Direction, 3> directions_;  // in the IMU
+  // Rows are unit vectors: two directions across the strut, then the one up along it,
+  tf2::Matrix3x3 axes_{0, 0, 0, 0, 0, 0, 0, 0, 0};  // in the target frame; without one, in the IMU itself
+  tf2::Matrix3x3 directions_;                       // in the IMU
   std::string target_frame_;
   std::optional<double> range_;
   const tf2::BufferCore* transforms_;
@@ -104,7 +102,7 @@ void requireFrame(const std::string& target_frame, const tf2::BufferCore& transf
 
 /// Gives struts that have a frame their position, by the static transforms from the body's IMU.
 /// @param imu  any message of the body's IMU, which tells its frame.
-/// @throws std::invalid_argument  naming the frame whose transform is missing.
+/// @throws std::invalid_argument  naming the frame whose transform is missing, or two struts in one place.
 void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const ShellOptions& options,
                  const tf2::BufferCore& transforms);
 

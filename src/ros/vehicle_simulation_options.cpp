@@ -62,13 +62,11 @@ std::vector<OptionDescription> VehicleSimulationOptions::describe() {
   std::vector<OptionDescription> struts = describeOptions(kVehicleStrutFields);
   for (OptionDescription& option : vehicle) option.default_value = kOfTheModel;
   for (std::size_t i = 0; i < kRequiredStrutFields; ++i) struts[i].default_value = kOfTheModel;
-  const std::vector<std::string> groups{"drive", "vehicle", "sensors", "hidden", "playing"};
-  std::vector<OptionDescription> all =
-      inGroups(groups, describeOptions(kVehicleDriveFields), describeOptions(kVehiclePublishingFields));
-  all = inGroups(groups, inGroups(groups, std::move(all), vehicle), describeOptions(kPlayingFields));
-  for (const auto& more : {struts, describeOptions(kKnownForceFields), describeOptions(kVehicleImuFields)})
+  std::vector<OptionDescription> all = describeOptions(kVehicleDriveFields);
+  for (const auto& more : {describeOptions(kVehiclePublishingFields), vehicle, describeOptions(kPlayingFields), struts,
+                           describeOptions(kKnownForceFields), describeOptions(kVehicleImuFields)})
     all.insert(all.end(), more.begin(), more.end());
-  return all;
+  return inGroups({"drive", "vehicle", "sensors", "hidden", "playing"}, std::move(all), {});
 }
 
 }  // namespace suspension_health_monitor

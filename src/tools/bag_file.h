@@ -170,6 +170,16 @@ bool carries(const BagConnection& connection) {
   return connection.md5sum == ros::message_traits::MD5Sum<Message>::value();
 }
 
+/// @return the topics with such messages, in the order in which they were declared.
+template <class Message>
+std::vector<std::string> topicsWith(const BagFile& file) {
+  std::vector<std::string> topics;
+  for (const BagConnection& connection : file.connections())
+    if (carries<Message>(connection) && std::find(topics.begin(), topics.end(), connection.topic) == topics.end())
+      topics.push_back(connection.topic);
+  return topics;
+}
+
 /// @return the connections that carry a topic.
 /// @throws InputError  if one carries other messages.
 template <class Message>

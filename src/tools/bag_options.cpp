@@ -10,7 +10,7 @@
 #include "../ros/model_file.h"
 #include "../ros/vehicle_sensors.h"
 #include "bag_file.h"
-#include "command.h"
+#include "long_work.h"
 #include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
@@ -50,11 +50,11 @@ std::shared_ptr<const tf2::BufferCore> readStaticTransforms(const std::vector<st
 
 VehicleLayout layoutOfTopics(const po::variables_map& values) {
   std::vector<std::string> topics;
-  for (const std::string option : kTopicOptions)
-    if (const std::string name = option.substr(2); values.count(name) != 0)
-      topics.push_back(values[name].as<std::string>());
-  for (std::size_t i = 0; i < topics.size(); ++i)
-    if (topics[i].empty()) throw std::invalid_argument(std::string(kTopicOptions[i]) + " is empty, must be a topic");
+  for (const std::string option : kTopicOptions) {
+    if (values.count(option) == 0) continue;
+    topics.push_back(values[option].as<std::string>());
+    if (topics.back().empty()) throw std::invalid_argument("--" + option + " is empty, must be a topic");
+  }
   if (topics[0] == topics[1])
     throw std::invalid_argument("--sprung-topic and --unsprung-topic are both " + topics[0] + ", must differ");
   VehicleLayout layout = VehicleLayout::ofOneStrut(false);
@@ -135,6 +135,15 @@ po::options_description bagOptions() {
   return description;
 }
 
+void runOnBags(const Arguments& arguments, const std::string& usage, const po::options_description& options,
+               const std::vector<std::string>& outputs, void (*work)(const po::variables_map& values)) {
+  const auto values = parse(arguments, usage, options, "bag");
+  if (!values) return;
+  requireSeparateFiles(*values, {"bag", kVehicle, "config", kBaseline, kAgainst, kEffectsFile, kModel}, outputs);
+  const Interruption interruption;
+  work(*values);
+}
+
 AskedVehicle readVehicle(const po::variables_map& values) {
   const std::string strut = values.count(kStrut) != 0 ? values[kStrut].as<std::string>() : "";
   if (values.count(kVehicle) == 0) {
@@ -143,8 +152,8 @@ AskedVehicle readVehicle(const po::variables_map& values) {
     return {layoutOfTopics(values), "", {""}, {0}, 0};
   }
   for (const std::string option : kTopicOptions)
-    if (const std::string name = option.substr(2); values.count(name) != 0 && !values[name].defaulted())
-      throw std::invalid_argument(option + " beside --vehicle, must be left out");
+    if (values.count(option) != 0 && !values[option].defaulted())
+      throw std::invalid_argument("--" + option + " beside --vehicle, must be left out");
   AskedVehicle vehicle;
   vehicle.file = values[kVehicle].as<std::string>();
   vehicle.layout = readVehicleFile(vehicle.file);
@@ -208,7 +217,8 @@ BagOptions readLiveOptions(const po::variables_map& values) {
   findSensors(options.bags, common.shell, vehicle.layout);
   options.bags.temperature_topics = options.settings.temperatureTopics();
   if (vehicle.isStrutAlone())
-    for (std::size_t i = 0; i < options.bags.topics.size(); ++i) options.bags.topics[i].named_by = kTopicOptions[i];
+    for (std::size_t i = 0; i < options.bags.topics.size(); ++i)
+      options.bags.topics[i].named_by = std::string("--") + kTopicOptions[i];
   options.period_measured = !common.monitor.sample_period;
   if (!options.period_measured) requireFittingPeriod(options.bags, options.period());
   return options;
@@ -222,10 +232,6 @@ void addEffectsFile(po::options_description& description) {
 void addModelOptions(po::options_description& description) {
   addEffectsFile(description);
   description.add_options()(kModel, po::value<std::string>(), "YAML file with the model, as diagnose -o writes it");
-}
-
-EffectLibrary readEffects(const po::variables_map& values) {
-  return readEffectsFile(values[kEffectsFile].as<std::string>());
 }
 
 }  // namespace suspension_health_monitor

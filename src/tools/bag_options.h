@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../ros/vehicle_options.h"
+#include "command.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/record/motion_range.h"
@@ -70,6 +71,14 @@ ImuBags bagsOf(const boost::program_options::variables_map& values);
 /// @return these and the other common options, for a subcommand to add its own to.
 boost::program_options::options_description bagOptions();
 
+/// Runs a subcommand that reads bags: parses its arguments, refuses to write into a file that is read, and begins work,
+/// which a signal interrupts. With -h among the arguments it shows the help only.
+/// @throws  as Command::run().
+/// @param usage, options  as parse().  @param outputs  as requireSeparateFiles().
+void runOnBags(const Arguments& arguments, const std::string& usage,
+               const boost::program_options::options_description& options, const std::vector<std::string>& outputs,
+               void (*work)(const boost::program_options::variables_map& values));
+
 /// @return how many processor cores may be used.
 /// @throws std::invalid_argument  as command.h.
 int threadsOf(const boost::program_options::variables_map& values);
@@ -99,14 +108,14 @@ BagOptions readLiveOptions(const boost::program_options::variables_map& values);
 /// @throws std::invalid_argument, InputError, TooLittleError  likewise, also if there are too few messages to tell.
 BagOptions readBagOptions(const boost::program_options::variables_map& values);
 
-/// Names of the options that addModelOptions() adds; their values are files that are read.
+/// Names of the options that addModelOptions() adds; their values are files, as readEffectsFile() and readModels() read
+/// them.
 inline constexpr const char* kEffectsFile = "effects-file";
 inline constexpr const char* kModel = "model";
 
-void addModelOptions(boost::program_options::options_description& description);
+inline constexpr const char* kAgainst = "against";  ///< name of an option
 
-/// @return the catalogue and the laws of --effects-file.
-EffectLibrary readEffects(const boost::program_options::variables_map& values);
+void addModelOptions(boost::program_options::options_description& description);
 
 /// Adds --effects-file alone.
 void addEffectsFile(boost::program_options::options_description& description);

@@ -5,7 +5,6 @@
 #include "bag_options.h"
 #include "checked_imus.h"
 #include "command.h"
-#include "long_work.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
@@ -25,11 +24,11 @@ std::vector<BagTopic> topicsOf(const po::variables_map& values) {
       add(strut.unsprung_imu, "struts/" + strut.name + "/unsprung_imu");
     }
   }
-  for (const std::string option : {"--sprung-topic", "--unsprung-topic"})
-    if (const std::string name = option.substr(2); values.count(name) != 0) {
-      if (values.count(kVehicle) != 0) throw std::invalid_argument(option + " beside --vehicle, must be left out");
-      topics.push_back({values[name].as<std::string>(), option});
-    }
+  for (const std::string option : {"sprung-topic", "unsprung-topic"}) {
+    if (values.count(option) == 0) continue;
+    if (values.count(kVehicle) != 0) throw std::invalid_argument("--" + option + " beside --vehicle, must be left out");
+    topics.push_back({values[option].as<std::string>(), "--" + option});
+  }
   if (values.count(kVehicle) == 0 && topics.size() == 1)
     throw std::invalid_argument(topics[0].named_by + " alone, must come with the other topic");
   return topics;
@@ -64,6 +63,83 @@ void print(const CheckedImus& checked) {
   for (const BodyOverWheel& pair : checked.pairs) std::printf("%s\n", checked.sentenceOf(pair).c_str());
 }
 
+/// @return the name of a strut, which topics begin with: "front_left_imu".
+std::string nameOf(const std::string& topic) {
+  std::string name = topic.substr(topic.find_first_not_of('/'));
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
+/// @return whether all bodies, and all wheels, are mounted alike.
+bool areAlike(const CheckedImus& checked) {
+  const std::vector<CheckedImu>& imus = checked.imus;
+  const BodyOverWheel& first = checked.pairs.front();
+  return std::all_of(checked.pairs.begin(), checked.pairs.end(), [&](const BodyOverWheel& pair) {
+    return imus[pair.body].upAxis() == imus[first.body].upAxis() &&
+           imus[pair.wheel].upAxis() == imus[first.wheel].upAxis();
+  });
+}
+
+std::string vehicleOf(const CheckedImus& checked) {
+  std::string body, struts;
+  for (const BodyOverWheel& pair : checked.pairs) {
+    const std::string &top = checked.imus[pair.body].topic, &wheel = checked.imus[pair.wheel].topic;
+    if (!pair.is_own) body = "body_imu: " + top + "\n";
+    struts +=
+        "  " + nameOf(wheel) + ": {" + (pair.is_own ? "sprung_imu: " + top + ", " : "") + "unsprung_imu: " + wheel;
+    struts += pair.is_own ? "}\n" : "}   # fill in: position: [x, y, z] of the strut's top from the body's IMU [m]\n";
+  }
+  std::string text = body + "struts:\n" + struts;
+  if (!areAlike(checked))
+    text += "# The IMUs are not mounted alike: give static transforms and target_frame (doc/conventions.md).\n";
+  return text;
+}
+
+/// @return `suspension_bag identify` with the bags and all that the pairs need.
+/// @param file  that --write names, or a name for it.
+std::string nextCommand(const CheckedImus& checked, const std::vector<std::string>& bags, const std::string& file) {
+  const BodyOverWheel& first = checked.pairs.front();
+  const CheckedImu &body = checked.imus[first.body], &wheel = checked.imus[first.wheel];
+  const std::string sensors = checked.pairs.size() > 1
+                                  ? " --vehicle " + file
+                                  : " --sprung-topic " + body.topic + " --unsprung-topic " + wheel.topic;
+  std::string command = "suspension_bag identify " + join(bags, " ") + sensors;
+  if (!areAlike(checked)) return command;
+  if (body.upAxis() != "z") command += " --set sprung_axis=" + body.upAxis();
+  if (wheel.upAxis() != "z") command += " --set unsprung_axis=" + wheel.upAxis();
+  return command;
+}
+
+/// @return the text of --write: of one strut settings, of several a vehicle file.
+std::string fileOf(const CheckedImus& checked, const std::vector<std::string>& bags, const std::string& file) {
+  const std::string head = "# suspension_bag check has found this.\n# " + nextCommand(checked, bags, file) + "\n";
+  if (checked.pairs.size() > 1) return head + vehicleOf(checked);
+  const BodyOverWheel& only = checked.pairs.front();
+  const CheckedImu &body = checked.imus[only.body], &wheel = checked.imus[only.wheel];
+  return head + "# roslaunch suspension_health_monitor monitor.launch config:=" + file + " sprung_imu:=" + body.topic +
+         " unsprung_imu:=" + wheel.topic + "\nsprung_axis: \"" + body.upAxis() + "\"\nunsprung_axis: \"" +
+         wheel.upAxis() + "\"\n";
+}
+
+void checkBags(const po::variables_map& values) {
+  std::optional<TextFile> written = outputFile(values, "write"), findings = outputFile(values, "json");
+
+  const ImuBags bags = bagsOf(values);
+  const CheckedImus checked(bags, topicsOf(values));
+  print(checked);
+  if (findings) findings->commit(checked.toJson().dump(2) + '\n');
+  if (checked.pairs.empty())
+    throw TooLittleError(
+        "no IMU moves like a body over another one: drive for half a minute on a rough road, with one IMU on the wheel "
+        "carrier and one on the body above it, whose clocks agree to 40 ms");
+  const std::string file = values.count("write") != 0 ? values["write"].as<std::string>() : "my_vehicle.yaml";
+  if (written) written->commit(fileOf(checked, bags.paths, file));
+  const bool has_file = checked.pairs.size() == 1 || written.has_value();
+  std::printf("\nNext%s: %s\n", has_file ? "" : ", with the file of --write",
+              nextCommand(checked, bags.paths, file).c_str());
+  printWritten(values, {"write", "json"});
+}
+
 }  // namespace
 
 void check(const Arguments& arguments) {
@@ -74,27 +150,8 @@ void check(const Arguments& arguments) {
   add("sprung-topic", po::value<std::string>(), "check this Imu topic of the body and that of the wheel carrier");
   add("unsprung-topic", po::value<std::string>(), "Imu topic of the wheel carrier; without any all in the bags");
   add("write", po::value<std::string>(), "YAML file for the other commands: settings of a strut, or a vehicle file");
-  const auto values = parse(
-      arguments, "check BAG... [--vehicle FILE | --sprung-topic T --unsprung-topic T] [OPTION]...", description, "bag");
-  if (!values) return;
-  requireSeparateFiles(*values, {"bag", kVehicle}, {"write", "json"});
-  const Interruption interruption;
-  std::optional<TextFile> written = outputFile(*values, "write"), findings = outputFile(*values, "json");
-
-  const ImuBags bags = bagsOf(*values);
-  const CheckedImus checked(bags, topicsOf(*values));
-  print(checked);
-  if (findings) findings->commit(checked.toJson().dump(2) + '\n');
-  if (checked.pairs.empty())
-    throw TooLittleError(
-        "no IMU moves like a body over another one: drive for half a minute on a rough road, with one IMU on the wheel "
-        "carrier and one on the body above it, whose clocks agree to 40 ms");
-  const std::string file = values->count("write") != 0 ? (*values)["write"].as<std::string>() : "my_vehicle.yaml";
-  if (written) written->commit(fileOf(checked.imus, checked.pairs, bags.paths, file));
-  const bool has_file = checked.pairs.size() == 1 || written.has_value();
-  std::printf("\nNext%s: %s\n", has_file ? "" : ", with the file of --write",
-              nextCommand(checked.imus, checked.pairs, bags.paths, file).c_str());
-  printWritten(*values, {"write", "json"});
+  runOnBags(arguments, "check BAG... [--vehicle FILE | --sprung-topic T --unsprung-topic T] [OPTION]...", description,
+            {"write", "json"}, &checkBags);
 }
 
 }  // namespace suspension_health_monitor

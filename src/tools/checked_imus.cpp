@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "../ros/conversions.h"
 #include "../ros/vehicle_sensors.h"
 #include "bag_file.h"
 #include "command.h"
 #include "suspension_health_monitor/internal/base/text.h"
-#include "suspension_health_monitor/internal/wording/imu_sentences.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -23,16 +22,22 @@ constexpr double kFewestBlocks = 3.0;  // that show a spectrum: 16 s
 constexpr double kBands[][2] = {{0.25, 0.5}, {0.5, 3.0}, {3.0, 20.0}};
 
 std::vector<BagTopic> allTopicsOf(const std::string& path) {
-  std::map<std::string, BagTopic> topics;
-  const BagFile file(path);
-  for (const BagConnection& connection : file.connections())
-    if (carries<sensor_msgs::Imu>(connection)) topics[connection.topic] = {connection.topic, "the bag"};
-  std::vector<BagTopic> list;
-  for (const auto& [name, topic] : topics) list.push_back(topic);
-  return list;
+  std::vector<std::string> names = topicsWith<sensor_msgs::Imu>(BagFile(path));
+  std::sort(names.begin(), names.end());
+  std::vector<BagTopic> topics;
+  for (const std::string& name : names) topics.push_back({name, "the bag"});
+  return topics;
 }
 
 }  // namespace
+
+int CheckedImu::axis() const {
+  int axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+std::string CheckedImu::upAxis() const { return (up[axis()] < 0.0 ? "-" : "") + std::string(1, "xyz"[axis()]); }
 
 CheckedImus::CheckedImus(const ImuBags& bags, const std::vector<BagTopic>& asked, const std::string& target_frame) {
   std::vector<ImuBags> each;

@@ -1,15 +1,29 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bag_options.h"
-#include "checked_files.h"
+#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
 #include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
+#include "suspension_health_monitor/internal/vehicle/imu_survey.h"
 
 namespace suspension_health_monitor {
+
+/// What the command check knows of a topic.
+struct CheckedImu {
+  std::string topic;
+  ImuSurvey survey = {};
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< of its axes the one that points up, with its sign
+  bool by_gravity = false;                        ///< else `up` is the axis that moves most, of either sign
+  bool has_gyro = false;
+
+  int axis() const;            ///< 0 x, 1 y, 2 z
+  std::string upAxis() const;  ///< one of kAxisNames
+};
 
 /// The IMUs of bags: what each of them is like, what points up, and which is which.
 struct CheckedImus {

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "command.h"
-#include "json_of.h"
 #include "long_work.h"
 #include "recorded_drives.h"
 #include "results.h"
@@ -31,19 +30,17 @@ void printModel(const Comparison& comparison) {
 
 void printErrors(const Comparison& comparison) {
   std::printf("error                                      rmse [m/s^2]      fit\n");
-  const auto row = [](const char* name, double rmse) { std::printf("%-42s %12.4g", name, rmse); };
-  row("free run (from the wheel alone)", comparison.free_run.rmse);
-  std::printf(" %6.1f %%\n", comparison.free_run.fit_percent);
-  if (comparison.held_out_rmse) {
-    row("free run, on blocks held out", *comparison.held_out_rmse);
-    std::printf("\n");
-  }
-  if (comparison.one_step) {
-    row("one step (rows of the regression)", comparison.one_step->rmse);
-    std::printf(" %6.1f %%\n", comparison.one_step->fit_percent);
-  }
+  const auto row = [](const char* name, double rmse, const std::string& fit = "") {
+    std::printf("%-42s %12.4g%s\n", name, rmse, fit.c_str());
+  };
+  const auto rowOf = [&](const char* name, const PredictionError& error) {
+    row(name, error.rmse, formatted(" %6.1f %%", error.fit_percent));
+  };
+  rowOf("free run (from the wheel alone)", comparison.free_run);
+  if (comparison.held_out_rmse) row("free run, on blocks held out", *comparison.held_out_rmse);
+  if (comparison.one_step) rowOf("one step (rows of the regression)", *comparison.one_step);
   row("noise floor of the free run, about", comparison.noise_floor);
-  std::printf("\n\nshare of the free run's error that is not noise: %.0f %%\n", 100.0 * comparison.structured_share);
+  std::printf("\nshare of the free run's error that is not noise: %.0f %%\n", 100.0 * comparison.structured_share);
 }
 
 void printTest(const char* name, const ResidualCorrelation& correlation) {
@@ -83,8 +80,7 @@ void printMap(const ForceSurface& surface) {
   std::printf("%12s  %s%*s travel\n", "rate", left.c_str(), std::max(1, width), right.c_str());
 }
 
-}  // namespace
-
+/// The errors by name, where the model fails in sentences, the force that it lacks as a map.
 void printComparison(const Comparison& comparison) {
   printModel(comparison);
   printErrors(comparison);
@@ -94,6 +90,8 @@ void printComparison(const Comparison& comparison) {
   for (const FailureRegion& region : comparison.where) std::printf("- %s\n", region.sentence.c_str());
   printMap(comparison.views.surface);
 }
+
+}  // namespace
 
 nlohmann::json toJson(const Comparison& comparison) {
   using nlohmann::json;
@@ -114,16 +112,11 @@ nlohmann::json toJson(const Comparison& comparison) {
           {"views", jsonOf(comparison.views)}};
 }
 
-void compare(const Arguments& arguments) {
-  namespace po = boost::program_options;
-  po::options_description description = bagOptions();
-  addModelOptions(description);
-  const auto values = parse(arguments, "compare BAG... [--model MODEL.yaml] [OPTION]...", description, "bag");
-  if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, {"json"});
-  const Interruption interruption;
-  std::optional<TextFile> file = outputFile(*values, "json");
-  AskedDrives asked(*values);
+namespace {
+
+void compareDrives(const boost::program_options::variables_map& values) {
+  std::optional<TextFile> file = outputFile(values, "json");
+  AskedDrives asked(values);
   asked.read();
   const AskedVehicle& vehicle = asked.options.vehicle;
   Progress progress("comparing", 1.0);
@@ -132,14 +125,21 @@ void compare(const Arguments& arguments) {
   printBags(asked.options, asked.recorded.bags, asked.gaps);
   printCoupling(found.coupling, vehicle.names);
   nlohmann::json whole = wholeJson(vehicle, found.coupling, asked.gaps);
-  for (std::size_t k = 0; k < found.struts.size(); ++k) {
-    const std::size_t i = vehicle.asked[k];
+  for (const std::size_t i : vehicle.asked) {
     std::printf("\n%s", vehicle.prefix(i, "\n").c_str());
-    printComparison(found.struts[k]);
-    vehicle.resultsOf(i, whole).update(toJson(found.struts[k]));
+    printComparison(found.struts[i]);
+    vehicle.resultsOf(i, whole).update(toJson(found.struts[i]));
   }
   if (file) file->commit(whole.dump(2) + '\n');
-  printWritten(*values, {"json"});
+  printWritten(values, {"json"});
+}
+
+}  // namespace
+
+void compare(const Arguments& arguments) {
+  boost::program_options::options_description description = bagOptions();
+  addModelOptions(description);
+  runOnBags(arguments, "compare BAG... [--model MODEL.yaml] [OPTION]...", description, {"json"}, &compareDrives);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,6 +1,7 @@
 #include "csv_tables.h"
 
 #include <cinttypes>
+#include <cmath>
 
 namespace suspension_health_monitor {
 
@@ -41,15 +42,12 @@ void RowTable::finish() {
 void RowTable::write(std::size_t strut, const std::optional<double>& predicted) {
   const MonitorReport row = waiting_[strut].front();
   waiting_[strut].pop_front();
-  beginLine(strut, row.stamp);
-  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g,%.17g,", row.ls.damping_to_mass, row.ls.stiffness_to_mass,
-               row.la.damping_to_mass, row.la.stiffness_to_mass, row.measured);
-  if (predicted)
-    std::fprintf(out_, "%.17g,%.17g,", *predicted, row.measured - *predicted);
-  else
-    std::fputs("nan,nan,", out_);
-  std::fprintf(out_, "%.17g,%.17g,%.17g,%.17g\n", row.estimate.damping_to_mass, row.estimate.stiffness_to_mass,
-               row.estimate.damping_to_mass_stddev, row.estimate.stiffness_to_mass_stddev);
+  const double prediction = predicted.value_or(std::nan(""));
+  std::fprintf(beginLine(strut, row.stamp), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
+               row.ls.damping_to_mass, row.ls.stiffness_to_mass, row.la.damping_to_mass, row.la.stiffness_to_mass,
+               row.measured, prediction, row.measured - prediction, row.estimate.damping_to_mass,
+               row.estimate.stiffness_to_mass, row.estimate.damping_to_mass_stddev,
+               row.estimate.stiffness_to_mass_stddev);
 }
 
 }  // namespace suspension_health_monitor

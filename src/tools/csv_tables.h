@@ -24,7 +24,7 @@ class CsvTable {
   /// @return where the rest of the line is to be written.
   std::FILE* beginLine(std::size_t strut, Stamp stamp);
 
- protected:
+ private:
   std::FILE* out_;
   const AskedVehicle& vehicle_;
 };

@@ -9,7 +9,7 @@
 #include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
-#include "suspension_health_monitor/internal/wording/drive_sentences.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -58,39 +58,25 @@ json toJson(const CurveChange& curve) {
   return ranges;
 }
 
-struct OtherDrive {
-  std::string name;
-  VehicleOptions settings;
-  std::vector<IdentifyResult> struts;
-  std::vector<StrutCurves> curves;  // by strut
+/// What is known of a strut from one drive or another.
+struct StrutThere {
+  const IdentifyResult& found;
+  const StrutCurves& curves;
 };
 
-/// @throws TooLittleError  naming the bag.
-OtherDrive readOther(const po::variables_map& values, const std::string& name) {
-  try {
-    const BagOptions options = readBagOptions(values);
-    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), false);
-    recorded.read();
-    const std::vector<IdentifyResult> struts = recorded.identified().struts;
-    return {name, options.settings, struts, curvesOfBags(options, struts)};
-  } catch (const TooLittleError& error) {
-    throw TooLittleError(std::string("--") + kAgainst + ' ' + name + ": " + error.what());
-  }
-}
-
-json against(const OtherDrive& other, std::size_t place, const IdentifyResult& now, const StrutCurves& curves) {
-  json result{{"bag", other.name}};
-  addCurves(other.curves[place], result);
-  const std::optional<StrutOfDrive> today = strutOf(now), then = strutOf(other.struts[place]);
-  if (!today || !then) {
+/// @param bag  name of that of `then`.
+json against(const std::string& bag, const StrutThere& now, const StrutThere& then, double payload_range) {
+  json result{{"bag", bag}};
+  addCurves(then.curves, result);
+  const std::optional<StrutOfDrive> today = strutOf(now.found), before = strutOf(then.found);
+  if (!today || !before) {
     result["change"] =
-        "cannot be compared with " + other.name + ": no valid estimate of " + (then ? "this drive" : "that drive");
+        "cannot be compared with " + bag + ": no valid estimate of " + (before ? "this drive" : "that drive");
     return result;
   }
-  const DriveChange change = changeOf(today->strut, curves, then->strut, other.curves[place],
-                                      other.settings.struts[place].monitor.payload_range);
+  const DriveChange change = changeOf(today->strut, now.curves, before->strut, then.curves, payload_range);
   const StrutChange& strut = change.strut;
-  result.update({{"change", describe(change, other.name)},
+  result.update({{"change", describe(change, bag)},
                  {"damping", toJson(strut.damping, strut.damping_stddev)},
                  {"stiffness", toJson(strut.stiffness, strut.stiffness_stddev)},
                  {"payload_change", strut.payload ? json(*strut.payload) : json()},
@@ -141,19 +127,33 @@ std::vector<json> againstOther(po::variables_map values, const std::vector<Ident
   if (values.count(kAgainst) == 0) return changes;
   const std::vector<std::string> bags{values[kAgainst].as<std::string>()};
   values.at("bag").value() = bags;
-  const OtherDrive other = readOther(values, fileNames(bags).front());
-  for (std::size_t i = 0; i < now.size(); ++i) changes.push_back(against(other, i, now[i], curves[i]));
+  const std::string bag = fileNames(bags).front();
+  try {
+    const BagOptions options = readBagOptions(values);
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), false);
+    recorded.read();
+    const std::vector<IdentifyResult> then = recorded.identified().struts;
+    const std::vector<StrutCurves> curves_then = curvesOfBags(options, then);
+    for (std::size_t i = 0; i < now.size(); ++i)
+      changes.push_back(against(bag, {now[i], curves[i]}, {then[i], curves_then[i]},
+                                options.settings.struts[i].monitor.payload_range));
+  } catch (const TooLittleError& error) {
+    throw TooLittleError(std::string("--") + kAgainst + ' ' + bag + ": " + error.what());
+  }
   return changes;
 }
 
-json curveFindings(const AskedVehicle& vehicle, json whole, const std::string& source, const json& origin) {
+json curveFindings(const po::variables_map& values, const BagOptions& options, json whole) {
+  const AskedVehicle& vehicle = options.vehicle;
   json struts = json::array();
   for (const std::size_t i : vehicle.asked) {
     const json& its = vehicle.resultsOf(i, whole);
     struts.push_back({{"strut", vehicle.names[i]}, {"against", its.value("against", json())}});
     for (const char* curve : {"damper_curve", "spring_curve"}) struts.back()[curve] = its[curve];
   }
-  return {{"struts", shortened(struts)}, {"source", source}, {"origin", origin}};
+  return {{"struts", shortened(struts)},
+          {"source", join(fileNames(options.bags.paths))},
+          {"origin", originOf(values, namesOf(options.bags.topics))}};
 }
 
 }  // namespace suspension_health_monitor

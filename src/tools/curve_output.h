@@ -13,8 +13,6 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr const char* kAgainst = "against";  ///< name of an option
-
 /// Reads bags as drives and fits curves, from the linear struts that identify found.
 /// @param found  by strut.  @return likewise; empty curves where nothing was found, or is not asked for.
 std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<IdentifyResult>& found);
@@ -39,9 +37,8 @@ std::vector<nlohmann::json> againstOther(boost::program_options::variables_map v
                                          const std::vector<StrutCurves>& curves);
 
 /// What the page of curves is made of.
-/// @param whole  what was found, as --json has it.
-/// @param source  as sourceOf().  @param origin  as originOf().
-nlohmann::json curveFindings(const AskedVehicle& vehicle, nlohmann::json whole, const std::string& source,
-                             const nlohmann::json& origin);
+/// @param values  of the command that makes it.  @param whole  what was found, as --json has it.
+nlohmann::json curveFindings(const boost::program_options::variables_map& values, const BagOptions& options,
+                             nlohmann::json whole);
 
 }  // namespace suspension_health_monitor

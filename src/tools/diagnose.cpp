@@ -4,7 +4,6 @@
 #include "checked_imus.h"
 #include "command.h"
 #include "curve_output.h"
-#include "json_of.h"
 #include "long_work.h"
 #include "recorded_drives.h"
 #include "report_page.h"
@@ -43,8 +42,7 @@ void printFit(const FittedModel& fit) {
     std::printf("  The fit to all samples failed: these are the numbers of the fit to two thirds of them.\n");
 }
 
-}  // namespace
-
+/// The verdict in a sentence, the ranked table, before and after.
 void printSearch(const Diagnosis& found) {
   std::printf("%s\n", found.summary.c_str());
   for (const EffectCost& cost : costsOf(found))
@@ -75,6 +73,15 @@ void printSearch(const Diagnosis& found) {
   printFit(*found.final_fit);
 }
 
+json toJson(const EffectCost& cost) {
+  json row{{"effect", cost.effect}, {"sentence", describe(cost)}, {"harmless", cost.isHarmless()}};
+  for (const auto& [name, change] : {std::pair("damping", cost.damping), {"stiffness", cost.stiffness}})
+    if (change && cost.fits_without) row[name] = {{"change", change->value}, {"stddev", change->stddev}};
+  return row;
+}
+
+}  // namespace
+
 void addNumbers(const StrutModel& model, json& into) {
   into["parameters"] = jsonOf(model);
   into["coefficients"] = into["shapes"] = json::object();
@@ -82,13 +89,6 @@ void addNumbers(const StrutModel& model, json& into) {
     if (number.kind == ModelNumber::Kind::kCoefficient) into["coefficients"][number.name] = number.value;
     if (number.kind == ModelNumber::Kind::kShape) into["shapes"][number.name] = number.value;
   }
-}
-
-static json toJson(const EffectCost& cost) {
-  json row{{"effect", cost.effect}, {"sentence", describe(cost)}, {"harmless", cost.isHarmless()}};
-  for (const auto& [name, change] : {std::pair("damping", cost.damping), {"stiffness", cost.stiffness}})
-    if (change && cost.fits_without) row[name] = {{"change", change->value}, {"stddev", change->stddev}};
-  return row;
 }
 
 json toJson(const Diagnosis& found) {
@@ -203,6 +203,7 @@ void search(const po::variables_map& values) {
   if (page)
     page->write(found, searching, whole,
                 {fileNames(bags.paths), originOf(values, namesOf(bags.topics)), dataJson(asked.options)});
+  printWritten(values, {"json", "output", kReport});
 }
 
 }  // namespace
@@ -215,13 +216,7 @@ void diagnose(const Arguments& arguments) {
   add(kReport, po::value<std::string>(),
       "write DIR/report.html: the search as a page with figures; of a vehicle also DIR/NAME/report.html of every "
       "strut");
-  const auto values = parse(arguments, "diagnose BAG... [OPTION]...", description, "bag");
-  if (!values) return;
-  const std::vector<std::string> outputs{"json", "output", kReport};
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kEffectsFile, kModel}, outputs);
-  const Interruption interruption;
-  search(*values);
-  printWritten(*values, outputs);
+  runOnBags(arguments, "diagnose BAG... [OPTION]...", description, {"json", "output", kReport}, &search);
 }
 
 }  // namespace suspension_health_monitor

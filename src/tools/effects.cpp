@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "../ros/model_file.h"
 #include "bag_options.h"
 #include "command.h"
 #include "suspension_health_monitor/internal/base/text.h"
@@ -69,7 +70,8 @@ void effects(const Arguments& arguments) {
   description.add_options()("markdown", "as the table of doc/effects.md");
   const auto values = parse(arguments, "effects [--effects-file FILE] [--markdown]", description);
   if (!values) return;
-  const std::vector<EffectLibrary::Description> all = readEffects(*values).describe();
+  const std::vector<EffectLibrary::Description> all =
+      readEffectsFile((*values)[kEffectsFile].as<std::string>()).describe();
   values->count("markdown") != 0 ? printMarkdown(all) : printForTerminal(all);
 }
 

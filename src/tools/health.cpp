@@ -8,13 +8,12 @@
 #include "command.h"
 #include "csv_tables.h"
 #include "html_page.h"
-#include "json_of.h"
-#include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/math/digest.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
@@ -31,32 +30,13 @@ using HealthCourse = Digest<std::pair<HealthMoment, Baseline>>;
 
 constexpr std::size_t kMostPoints = 4000;  // more than twice a screen's pixels
 
-/// The files that are asked for, begun, and what the page is made of while the monitor runs.
-struct HealthFiles {
-  HealthFiles(const po::variables_map& values, const AskedVehicle& vehicle)
-      : findings(outputFile(values, "json")),
-        csv(outputFile(values, "csv")),
-        table(csv ? csv->stream() : nullptr, vehicle, "level,message,b1,b0,b1_stddev,b0_stddev,offset"),
-        courses(vehicle.names.size(), HealthCourse(kMostPoints)) {
-    if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
-  }
-
-  void add(std::size_t strut, const HealthMoment& moment, const Baseline& judged_by);
-
-  std::optional<TextFile> findings, csv;
-  std::optional<HtmlPage> page;
-  CsvTable table;
-  std::vector<HealthCourse> courses;
-};
-
-void HealthFiles::add(std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
+/// Writes a line of --csv.
+void writeLine(CsvTable& table, std::size_t strut, const HealthMoment& moment) {
   const StrutEstimate& estimate = moment.estimate;
-  if (table.isOf(strut))
-    std::fprintf(table.beginLine(strut, moment.time), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level),
-                 boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(), estimate.damping_to_mass,
-                 estimate.stiffness_to_mass, estimate.dampingAbsoluteStddev(), estimate.stiffnessAbsoluteStddev(),
-                 moment.offset);
-  if (page) courses[strut].add({moment, judged_by});
+  std::fprintf(table.beginLine(strut, moment.time), "%s,\"%s\",%.17g,%.17g,%.17g,%.17g,%.17g\n", nameOf(moment.level),
+               boost::replace_all_copy(moment.message, "\"", "\"\"").c_str(), estimate.damping_to_mass,
+               estimate.stiffness_to_mass, estimate.dampingAbsoluteStddev(), estimate.stiffnessAbsoluteStddev(),
+               moment.offset);
 }
 
 json toJson(const HealthCourse& course) {
@@ -179,32 +159,38 @@ void watchBags(const po::variables_map& values) {
   const BagOptions options = readLiveOptions(values);
   const AskedVehicle& vehicle = options.vehicle;
   HealthyStruts healthy = healthyOf(values, options);
-  HealthFiles files(values, vehicle);
+  std::optional<TextFile> findings = outputFile(values, "json"), csv = outputFile(values, "csv");
+  std::optional<HtmlPage> page = reportPage(values);
+  CsvTable table(csv ? csv->stream() : nullptr, vehicle, "level,message,b1,b0,b1_stddev,b0_stddev,offset");
+  std::vector<HealthCourse> courses(vehicle.names.size(), HealthCourse(kMostPoints));
   RecordedMonitor recorded(options, std::move(healthy), true, {},
                            [&](std::size_t strut, const HealthMoment& moment, const Baseline& judged_by) {
-                             files.add(strut, moment, judged_by);
+                             if (table.isOf(strut)) writeLine(table, strut, moment);
+                             if (page) courses[strut].add({moment, judged_by});
                            });
   const std::vector<RecordedMonitor::Recording> recordings = recorded.read();
-  json whole = wholeJson(vehicle, recorded.coupling(), recorded.gaps()), struts = json::array();
+  const VehicleCoupling coupling = couplingOf(recorded.monitor(), vehicle.names, options.settings.forceNames());
+  json whole = wholeJson(vehicle, coupling, recorded.gaps()), struts = json::array();
   for (const std::size_t i : vehicle.asked) {
     const json result = toJson(recorded.log(i), recorded.strut(i));
     vehicle.resultsOf(i, whole).update(result);
-    if (files.page) struts.push_back(findingsOf(recorded, i, files.courses[i], recordings, result));
+    if (page) struts.push_back(findingsOf(recorded, i, courses[i], recordings, result));
   }
   const std::optional<CornerComparisonReport> corners = cornersOf(recorded);
   if (corners) whole["corners"] = toJson(*corners);
-  if (files.findings) files.findings->commit(whole.dump(2) + '\n');
-  if (files.csv) files.csv->commit();
-  if (files.page)
-    files.page->write(healthTemplate(), {{"struts", struts},
-                                         {"data", shortened(dataJson(options))},
-                                         {"origin", originOf(values, namesOf(options.bags.topics))}});
+  if (findings) findings->commit(whole.dump(2) + '\n');
+  if (csv) csv->commit();
+  if (page)
+    page->write(healthTemplate(), {{"struts", struts},
+                                   {"data", shortened(dataJson(options))},
+                                   {"origin", originOf(values, namesOf(options.bags.topics))}});
   recorded.printInput();
   for (const std::size_t i : vehicle.asked) {
     std::printf("\n%s", vehicle.prefix(i, ", ").c_str());
     printHealth(recorded.log(i), recorded.strut(i), recorded.reference(i));
   }
   if (corners) std::printf("\nover the drive: %s\n", describe(*corners).c_str());
+  printWritten(values, {"csv", "json", kReport});
 }
 
 }  // namespace
@@ -217,13 +203,7 @@ void health(const Arguments& arguments) {
       "struts: {NAME: ...}");
   add("csv", po::value<std::string>(), "write a line per second and change of level, full precision");
   add(kReport, po::value<std::string>(), "write DIR/report.html: the levels over time as a page with figures");
-  const auto values = parse(arguments, "health BAG... [OPTION]...", description, "bag");
-  if (!values) return;
-  const std::vector<std::string> outputs{"csv", "json", kReport};
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline}, outputs);
-  const Interruption interruption;
-  watchBags(*values);
-  printWritten(*values, outputs);
+  runOnBags(arguments, "health BAG... [OPTION]...", description, {"csv", "json", kReport}, &watchBags);
 }
 
 }  // namespace suspension_health_monitor

@@ -1,7 +1,7 @@
 #include "html_page.h"
 
 #include <boost/algorithm/string/replace.hpp>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -34,8 +34,7 @@ std::string sourceOf(const std::vector<std::string>& names, double duration, dou
 }
 
 json originOf(const boost::program_options::variables_map& values, const std::vector<std::string>& topics) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return {{"made", std::chrono::duration_cast<std::chrono::seconds>(now).count()},
+  return {{"made", std::time(nullptr)},  // POSIX: [s] since 1970
           {"program", "suspension_bag " PACKAGE_VERSION},
           {"command", values[kCommandLine].as<std::string>()},
           {"topics", topics}};
@@ -56,6 +55,11 @@ HtmlPage::HtmlPage(const std::string& folder) : folder_(folder), file_((fs::path
 
 void HtmlPage::write(std::string_view page, const json& findings) {
   file_.commit(boost::replace_first_copy(std::string(page), "@@findings@@", harmless(findings)));
+}
+
+std::optional<HtmlPage> reportPage(const boost::program_options::variables_map& values) {
+  if (values.count(kReport) == 0) return std::nullopt;
+  return std::optional<HtmlPage>(std::in_place, values[kReport].as<std::string>());
 }
 
 }  // namespace suspension_health_monitor

@@ -2,6 +2,7 @@
 
 #include <boost/program_options.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,10 @@ class HtmlPage {
   Folder folder_;  // before the file, so that it is empty by the time that it is taken away
   TextFile file_;
 };
+
+/// @return the page of --report, begun; nothing: it is not given.
+/// @throws std::runtime_error  as HtmlPage.
+std::optional<HtmlPage> reportPage(const boost::program_options::variables_map& values);
 
 /// @return a copy with numbers to five digits: a figure shows no more, and the page stays small.
 nlohmann::json shortened(nlohmann::json value);

@@ -5,7 +5,6 @@
 #include "csv_tables.h"
 #include "curve_output.h"
 #include "html_page.h"
-#include "long_work.h"
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"
@@ -22,21 +21,6 @@ namespace po = boost::program_options;
 using nlohmann::json;
 
 constexpr std::size_t kTableLines = 12;
-
-/// The files that are asked for, begun.
-struct Files {
-  Files(const po::variables_map& values, const AskedVehicle& vehicle)
-      : csv(outputFile(values, "csv")),
-        findings(outputFile(values, "json")),
-        settings(outputFile(values, "output")),
-        rows(csv ? csv->stream() : nullptr, vehicle) {
-    if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
-  }
-
-  std::optional<TextFile> csv, findings, settings;
-  std::optional<HtmlPage> page;
-  RowTable rows;
-};
 
 /// What is known at the end.
 struct Found {
@@ -83,7 +67,7 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
   recorded.printInput();
   printCoupling(found.vehicle.coupling, vehicle.names);
   if (found.body) printBody(*found.body);
-  const std::string mistake = describeMistake(*recorded.pipeline().monitor(), vehicle.names);
+  const std::string mistake = describeMistake(recorded.monitor(), vehicle.names);
   if (!mistake.empty()) std::printf("warning: %s\n", mistake.c_str());
   if (vehicle.only) {
     std::printf("\n");
@@ -137,7 +121,7 @@ void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyRes
     if (reason.empty()) return;
     reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, options));
   }
-  const std::string mistake = describeMistake(*recorded.pipeline().monitor(), vehicle.names);
+  const std::string mistake = describeMistake(recorded.monitor(), vehicle.names);
   throw TooLittleError((mistake.empty() ? join(reasons, "; ") : mistake) +
                        describeRejected(recorded.pipeline().rejected()));
 }
@@ -156,37 +140,36 @@ struct Nominal {
         lacks.push_back(recorded.vehicle().prefix(i, ": ") + lack);
     }
   }
-
-  std::string text(const po::variables_map& values, const BagOptions& options) const {
-    return settingsOf(struts, options.vehicle.only.has_value(), givenSettings(values), fileNames(options.bags.paths));
-  }
 };
 
 void identifyBags(const po::variables_map& values) {
   const BagOptions options = readBagOptions(values);
   const AskedVehicle& vehicle = options.vehicle;
   const HealthyStruts healthy = healthyOf(values, options);
-  Files files(values, vehicle);
+  std::optional<TextFile> csv = outputFile(values, "csv"), findings = outputFile(values, "json");
+  std::optional<TextFile> settings = outputFile(values, "output");
+  std::optional<HtmlPage> page = reportPage(values);
+  RowTable rows(csv ? csv->stream() : nullptr, vehicle);
   Digest<MonitorReport> table(kTableLines);
   RecordedMonitor recorded(options, healthy, false, [&](std::size_t strut, const MonitorReport& report) {
-    files.rows.add(strut, report);
+    rows.add(strut, report);
     if (vehicle.only == strut && report.has_row) table.add(report);
   });
   recorded.read();
-  files.rows.finish();
+  rows.finish();
   Found found(recorded, options, healthy);
   if (values.count("curves") + values.count(kAgainst) + values.count(kReport) != 0)
     found.curves = curvesOfBags(options, found.vehicle.struts);
   found.against = againstOther(values, found.vehicle.struts, found.curves);
   const json whole = toJson(recorded, found);
-  if (files.findings) files.findings->commit(whole.dump(2) + '\n');
-  if (files.csv) files.csv->commit();
-  if (files.page)
-    files.page->write(curvesTemplate(), curveFindings(vehicle, whole, join(fileNames(options.bags.paths)),
-                                                      originOf(values, namesOf(options.bags.topics))));
+  if (findings) findings->commit(whole.dump(2) + '\n');
+  if (csv) csv->commit();
+  if (page) page->write(curvesTemplate(), curveFindings(values, options, whole));
   const Nominal nominal(recorded, found.vehicle.struts, options.settings);
-  const bool has_settings = files.settings && !nominal.struts.empty();
-  if (has_settings) files.settings->commit(nominal.text(values, options));
+  const bool has_settings = settings && !nominal.struts.empty();
+  if (has_settings)
+    settings->commit(
+        settingsOf(nominal.struts, vehicle.only.has_value(), givenSettings(values), fileNames(options.bags.paths)));
   print(recorded, found, table.items());
   if (has_settings)
     for (const std::string& lack : nominal.lacks) std::printf("warning: no settings of %s\n", lack.c_str());
@@ -194,7 +177,7 @@ void identifyBags(const po::variables_map& values) {
   if (has_settings) outputs.emplace_back("output");
   printWritten(values, outputs);
   requireValid(recorded, found.vehicle.struts, options);
-  if (files.settings && !has_settings) throw TooLittleError("no settings are written: " + join(nominal.lacks, "; "));
+  if (settings && !has_settings) throw TooLittleError("no settings are written: " + join(nominal.lacks, "; "));
 }
 
 }  // namespace
@@ -211,11 +194,7 @@ void identify(const Arguments& arguments) {
   add(kReport, po::value<std::string>(), "write DIR/report.html: the curves, of both drives, as a page with figures");
   add(kBaseline, po::value<std::string>(),
       "YAML file with the healthy strut, or settings with its nominal values, to say how this one is against it");
-  const auto values = parse(arguments, "identify BAG... [OPTION]...", description, "bag");
-  if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config", kBaseline, kAgainst}, {"csv", "json", "output", kReport});
-  const Interruption interruption;
-  identifyBags(*values);
+  runOnBags(arguments, "identify BAG... [OPTION]...", description, {"csv", "json", "output", kReport}, &identifyBags);
 }
 
 }  // namespace suspension_health_monitor

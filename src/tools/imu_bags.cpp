@@ -17,15 +17,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-template <class Message>
-std::string listTopics(const std::vector<BagConnection>& connections) {
-  std::vector<std::string> list;
-  for (const BagConnection& connection : connections)
-    if (carries<Message>(connection) && std::find(list.begin(), list.end(), connection.topic) == list.end())
-      list.push_back(connection.topic);
-  return list.empty() ? "none" : join(list);
-}
-
 /// For every connection of a bag the topic that it carries, by its place, if that is wanted.
 using Places = std::map<std::uint32_t, std::optional<std::size_t>>;
 
@@ -34,9 +25,10 @@ template <class Message>
 void findTopic(const BagFile& file, const BagTopic& topic, const char* kind, std::size_t place, Places& places) {
   const std::vector<std::uint32_t> connections = connectionsOf<Message>(file, topic.name);
   for (const std::uint32_t connection : connections) places[connection] = place;
-  if (connections.empty())
-    throw InputError(file.path() + ": no topic " + topic.name + " (" + topic.named_by + "); " + kind +
-                     " topics in this bag: " + listTopics<Message>(file.connections()));
+  if (!connections.empty()) return;
+  const std::vector<std::string> others = topicsWith<Message>(file);
+  throw InputError(file.path() + ": no topic " + topic.name + " (" + topic.named_by + "); " + kind +
+                   " topics in this bag: " + (others.empty() ? "none" : join(others)));
 }
 
 Places findPlaces(const BagFile& file, const ImuBags& bags, bool with_temperatures) {
@@ -53,7 +45,7 @@ Places findPlaces(const BagFile& file, const ImuBags& bags, bool with_temperatur
 
 /// Which recording times [ns] are read.
 struct Range {
-  std::uint64_t first = 0, last = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t first, last;
 
   bool contains(std::uint64_t time) const { return time >= first && time <= last; }
   bool overlaps(const BagChunk& chunk) const { return chunk.end >= first && chunk.start <= last; }
@@ -61,11 +53,9 @@ struct Range {
 
 Range toRange(const ImuBags& bags, std::uint64_t beginning) {
   constexpr double kFarFuture = 1e9;  // [s]
-  const auto nanoseconds = [](double seconds) { return static_cast<std::uint64_t>(1e9 * seconds); };
-  Range range;
-  range.first = beginning + nanoseconds(std::min(bags.start, kFarFuture));
-  if (bags.end < kFarFuture) range.last = beginning + nanoseconds(bags.end);
-  return range;
+  const auto after = [&](double seconds) { return beginning + static_cast<std::uint64_t>(1e9 * seconds); };
+  return {after(std::min(bags.start, kFarFuture)),
+          bags.end < kFarFuture ? after(bags.end) : std::numeric_limits<std::uint64_t>::max()};
 }
 
 /// A message that is wanted, decoded.
@@ -85,9 +75,9 @@ struct OpenChunk {
   bool isDone() const { return next == end; }
 };
 
-/// For a heap with the earliest message on top; of messages at the same time the one that was written first.
-bool isLater(const OpenChunk& a, const OpenChunk& b) {
-  return std::tie(a.message().time, a.position) > std::tie(b.message().time, b.position);
+/// Of messages at the same time the one that was written first is the earlier one.
+bool isEarlier(const OpenChunk& a, const OpenChunk& b) {
+  return std::tie(a.message().time, a.position) < std::tie(b.message().time, b.position);
 }
 
 /// Reads and decodes chunks of one bag.
@@ -142,34 +132,24 @@ class Delivery {
   OpenChunk spare() { return std::exchange(spare_, {}); }
 
   void open(OpenChunk chunk) {
-    if (chunk.isDone()) return;
-    open_.push_back(std::move(chunk));
-    std::push_heap(open_.begin(), open_.end(), isLater);
+    if (!chunk.isDone()) open_.push_back(std::move(chunk));
   }
 
   /// @return false if no more messages are wanted.
   bool deliverBefore(std::uint64_t time) {
-    while (!open_.empty() && open_.front().message().time < time) {
-      std::pop_heap(open_.begin(), open_.end(), isLater);
-      OpenChunk& chunk = open_.back();
-      const bool is_only = open_.size() == 1;
-      do {
-        if (!deliver(chunk.message())) return false;
-        ++chunk.next;
-      } while (!chunk.isDone() && chunk.message().time < time && (is_only || !isLater(chunk, open_.front())));
-      putBack(chunk);
+    while (!open_.empty()) {
+      const auto earliest = std::min_element(open_.begin(), open_.end(), isEarlier);
+      if (earliest->message().time >= time) break;
+      if (!deliver(earliest->message())) return false;
+      ++earliest->next;
+      if (!earliest->isDone()) continue;
+      spare_ = std::move(*earliest);
+      open_.erase(earliest);
     }
     return true;
   }
 
  private:
-  /// @param last  of those that are open: it goes back onto the heap, unless all its messages are delivered.
-  void putBack(OpenChunk& last) {
-    if (!last.isDone()) return std::push_heap(open_.begin(), open_.end(), isLater);
-    spare_ = std::move(last);
-    open_.pop_back();
-  }
-
   bool deliver(const Message& message) {
     Interruption::check();
     const Stamp recorded(static_cast<Stamp::rep>(message.time));
@@ -185,7 +165,7 @@ class Delivery {
 
   const TopicSinks& take_;
   TopicGaps* gaps_;
-  std::vector<OpenChunk> open_;  // a heap
+  std::vector<OpenChunk> open_;  // as many as overlap in time, mostly one or two
   OpenChunk spare_;              // storage of a chunk that is done
 };
 

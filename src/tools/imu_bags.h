@@ -17,7 +17,7 @@
 namespace suspension_health_monitor {
 
 /// Options that name the topics, by Side.
-inline constexpr std::array kTopicOptions{"--sprung-topic", "--unsprung-topic", "--road-topic"};
+inline constexpr std::array kTopicOptions{"sprung-topic", "unsprung-topic", "road-topic"};
 
 /// A topic of IMUs, or of known forces.
 struct BagTopic {

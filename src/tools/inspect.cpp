@@ -2,13 +2,12 @@
 #include <cstdlib>
 
 #include "command.h"
-#include "html_page.h"
 #include "inspection_output.h"
-#include "long_work.h"
 #include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/free_decay.h"
+#include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -110,8 +109,7 @@ void inspectBags(const po::variables_map& values) {
   for (const std::size_t i : options.vehicle.asked)
     wheels.push_back(wheelOf(values, options.settings.struts[i].monitor.sprung_mass));
   std::optional<TextFile> findings = outputFile(values, "json");
-  std::optional<HtmlPage> page;
-  if (values.count(kReport) != 0) page.emplace(values[kReport].as<std::string>());
+  std::optional<HtmlPage> page = reportPage(values);
   Inspected inspected{};
   if (by_hand) {
     inspected = bounced(options);
@@ -148,11 +146,7 @@ void inspect(const Arguments& arguments) {
       "VALUE or LOW..HIGH: tyre stiffness over sprung mass [1/s^2], with sprung_mass in N/m, for the adhesion");
   add(kBounce, "the vehicle stands, and its body was pushed by hand and let go: judge the free decays");
   add(kReport, po::value<std::string>(), "write DIR/report.html: one sheet of A4 to print");
-  const auto values = parse(arguments, "inspect BAG... [OPTION]...", description, "bag");
-  if (!values) return;
-  requireSeparateFiles(*values, {"bag", "vehicle", "config"}, {"json", kReport});
-  const Interruption interruption;
-  inspectBags(*values);
+  runOnBags(arguments, "inspect BAG... [OPTION]...", description, {"json", kReport}, &inspectBags);
 }
 
 }  // namespace suspension_health_monitor

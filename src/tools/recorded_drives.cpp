@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "../ros/conversions.h"
+#include "../ros/model_file.h"
 #include "../ros/vehicle_sensors.h"
 #include "command.h"
 #include "strut_files.h"
@@ -16,25 +17,6 @@
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-void readBag(const ImuBags& bag, const PipelineOptions& options, const VehicleLayout& layout, RecordedDrives& into) {
-  VehicleDrive& drive = into.drives.emplace_back();
-  drive.struts.resize(layout.struts.size());
-  for (const VehicleLayout::KnownForce& force : layout.known_forces) drive.forces.push_back({force.name, {}});
-  SampleSinks take;
-  take.sample = [&](const VehicleSample& sample) {
-    append(sample, drive);
-    return true;
-  };
-  take.body = [&](const BodyMotion& motion) { drive.struts.front().body.push_back(motion); };
-  take.take_back = [&] { dropNewest(drive, kSignalTuning.outcomes); };
-  const VehicleGrid& grid = into.bags.emplace_back(readSamples(bag, options, layout, take)).grid;
-  grid.describe(drive);
-  drive.places = grid.vehicle().places();
-}
-
-}  // namespace
 
 ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, VehicleLayout layout,
                         const SampleSinks& take) {
@@ -78,8 +60,22 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, Veh
 RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
   RecordedDrives recorded;
   VehicleLayout& layout = options.vehicle.layout;
-  for (const std::string& path : options.bags.paths)
-    readBag(options.bags.of(path, gaps), options.settings.common, layout, recorded);
+  for (const std::string& path : options.bags.paths) {
+    VehicleDrive& drive = recorded.drives.emplace_back();
+    drive.struts.resize(layout.struts.size());
+    for (const VehicleLayout::KnownForce& force : layout.known_forces) drive.forces.push_back({force.name, {}});
+    SampleSinks take;
+    take.sample = [&](const VehicleSample& sample) {
+      append(sample, drive);
+      return true;
+    };
+    take.body = [&](const BodyMotion& motion) { drive.struts.front().body.push_back(motion); };
+    take.take_back = [&] { dropNewest(drive, kSignalTuning.outcomes); };
+    recorded.bags.push_back(readSamples(options.bags.of(path, gaps), options.settings.common, layout, take));
+    const VehicleGrid& grid = recorded.bags.back().grid;
+    grid.describe(drive);
+    drive.places = grid.vehicle().places();
+  }
   layout.turn(recorded.bags.front().grid.bodyLevel().mount());
   return recorded;
 }
@@ -120,14 +116,6 @@ void requireCoupling(const VehicleCoupling& coupling) {
   if (!coupling) throw TooLittleError("the drives " + coupling.reason);
 }
 
-void requireOne(const VehicleDiagnosis& found, const AskedVehicle& vehicle) {
-  requireCoupling(found.coupling);
-  for (const std::size_t i : vehicle.asked)
-    if (found.struts[i]) return;
-  const std::size_t first = vehicle.asked.front();
-  requireEnough(found.struts[first].shortcoming, found.struts[first].reason, vehicle.prefix(first, ": "));
-}
-
 }  // namespace
 
 void requireEnough(Shortcoming shortcoming, const std::string& reason, const std::string& prefix) {
@@ -136,7 +124,7 @@ void requireEnough(Shortcoming shortcoming, const std::string& reason, const std
 }
 
 AskedDrives::AskedDrives(const boost::program_options::variables_map& values)
-    : library(readEffects(values)),
+    : library(readEffectsFile(values[kEffectsFile].as<std::string>())),
       models(readModels(values, readVehicle(values), library)),
       options(readBagOptions(values)),
       gaps(options.settings.common.shell.input_timeout) {}
@@ -146,18 +134,17 @@ RecordedComparison compareBags(const AskedDrives& asked, const std::function<voi
   const SeparatedVehicle own =
       separateVehicle(asked.recorded.drives, vehicle.names, asked.options.period(), asked.models);
   asked.gaps.explain([&] { requireCoupling(own.coupling); });
-  RecordedComparison result{own.coupling, {}};
+  RecordedComparison result{own.coupling, std::vector<Comparison>(vehicle.names.size())};
+  double done = 0.0;
   for (const std::size_t i : vehicle.asked) {
     CompareOptions comparing;
     comparing.sample_period = asked.options.period();
     comparing.horizon_samples = givenHorizon(asked.options, i);
     comparing.model = asked.models[i];
     comparing.fit = !asked.models[i];
-    comparing.progress = [&](double share) {
-      progress((static_cast<double>(result.struts.size()) + share) / static_cast<double>(vehicle.asked.size()));
-    };
-    result.struts.push_back(compare(own.struts[i], comparing));
-    const Comparison& found = result.struts.back();
+    comparing.progress = [&](double share) { progress((done + share) / static_cast<double>(vehicle.asked.size())); };
+    const Comparison& found = result.struts[i] = compare(own.struts[i], comparing);
+    done += 1.0;
     asked.gaps.explain([&] { requireEnough(found.shortcoming, found.reason, vehicle.prefix(i, ": ")); });
   }
   return result;
@@ -173,7 +160,13 @@ VehicleDiagnosis diagnoseBags(const AskedDrives& asked, DiagnoseOptions& searchi
     by_strut[i].model = asked.models[i];
   }
   VehicleDiagnosis found = diagnoseVehicle(asked.recorded.drives, vehicle.names, by_strut, asked.models);
-  asked.gaps.explain([&] { requireOne(found, vehicle); });
+  asked.gaps.explain([&] {
+    requireCoupling(found.coupling);
+    const auto isFound = [&](std::size_t i) { return static_cast<bool>(found.struts[i]); };
+    if (std::any_of(vehicle.asked.begin(), vehicle.asked.end(), isFound)) return;
+    const std::size_t first = vehicle.asked.front();
+    requireEnough(found.struts[first].shortcoming, found.struts[first].reason, vehicle.prefix(first, ": "));
+  });
   return found;
 }
 

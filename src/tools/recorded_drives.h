@@ -81,7 +81,7 @@ void requireEnough(Shortcoming shortcoming, const std::string& reason, const std
 
 struct RecordedComparison {
   VehicleCoupling coupling;
-  std::vector<Comparison> struts;  ///< by AskedVehicle::asked
+  std::vector<Comparison> struts;  ///< by strut; empty where it is not asked for
 };
 
 /// Compares models as they are; of a strut without one the linear one, fitted.

@@ -66,13 +66,11 @@ std::vector<RecordedMonitor::Recording> RecordedMonitor::read() {
     for (HealthLog& log : logs_) log.finishRecording();
   }
   if (pipeline_.monitor() != nullptr) pipeline_.monitor()->fitBody();
-  gaps_.explain([&] { requireEnough(); });
+  gaps_.explain([&] {
+    const std::string why = whyTooLittle();
+    if (!why.empty()) throw TooLittleError(join({why, join(mountFaults(), "; ")}, "; "));
+  });
   return recordings;
-}
-
-void RecordedMonitor::requireEnough() const {
-  const std::string why = whyTooLittle();
-  if (!why.empty()) throw TooLittleError(join({why, join(mountFaults(), "; ")}, "; "));
 }
 
 std::string RecordedMonitor::whyTooLittle() const {
@@ -123,10 +121,6 @@ std::vector<std::string> RecordedMonitor::mountFaults(std::size_t strut) const {
   std::vector<std::string> faults{all[streams_.bodyImuOf(strut)], all[streams_.wheelImuOf(strut)]};
   faults.erase(std::remove(faults.begin(), faults.end(), ""), faults.end());
   return faults;
-}
-
-VehicleCoupling RecordedMonitor::coupling() const {
-  return couplingOf(*pipeline_.monitor(), options_.vehicle.names, options_.settings.forceNames());
 }
 
 }  // namespace suspension_health_monitor

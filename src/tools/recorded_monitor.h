@@ -50,9 +50,6 @@ class RecordedMonitor {
   /// @return the estimate over all readings, with the model's error beside the standard deviations.
   StrutEstimate overTheDrive(std::size_t strut) { return pipeline_.monitor()->overTheDrive(strut); }
 
-  /// @return how the struts move one another, as it is known at the end.
-  VehicleCoupling coupling() const;
-
   const AskedVehicle& vehicle() const { return options_.vehicle; }
   const VehicleMonitor& monitor() const { return *pipeline_.monitor(); }
   const MessagePipeline& pipeline() const { return pipeline_; }
@@ -74,7 +71,6 @@ class RecordedMonitor {
 
  private:
   std::vector<std::string> mountFaults() const { return pipeline_.mountFaults(topics_); }
-  void requireEnough() const;
   std::string whyTooLittle() const;
 
   const BagOptions& options_;

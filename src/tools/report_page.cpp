@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "json_of.h"
 #include "recorded_drives.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -103,11 +102,12 @@ json curvesJson(const json& strut, const StrutModel& model) {
 
 json findingsOf(const ReportContent& content) {
   double duration = 0.0;
+  const double period = *content.options.sample_period;
   for (const ComparedSegment& segment : content.before.segments)
-    duration += static_cast<double>(segment.size()) * content.period;
+    duration += static_cast<double>(segment.size()) * period;
   json findings{{"search", toJson(content.found)},
-                {"source", sourceOf(content.source.drive_names, duration, content.period)},
-                {"effects", effectsJson(content.library)},
+                {"source", sourceOf(content.source.drive_names, duration, period)},
+                {"effects", effectsJson(content.options.candidates)},
                 {"parameters", parametersJson(content)},
                 {"drives", drivesJson(content)},
                 {"before", shortened(toJson(content.before))},
@@ -153,8 +153,7 @@ void ReportPage::writeStrut(std::size_t place, const VehicleDiagnosis& all, cons
     comparing.fit = false;
     after = compare(drives, comparing);
   }
-  json findings = findingsOf(
-      {found, options.candidates, *options.sample_period, source, before, after && *after ? &*after : nullptr});
+  json findings = findingsOf({found, options, source, before, after && *after ? &*after : nullptr});
   const json& its = vehicle_.resultsOf(place, whole);
   findings["change"] = its.value("change", "");
   findings["travel"] = shortened(its.at("travel"));

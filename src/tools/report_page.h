@@ -22,8 +22,7 @@ struct PageSource {
 /// All that the page of a search is made of.
 struct ReportContent {
   const Diagnosis& found;
-  const EffectLibrary& library;  ///< the candidates of the search
-  double period;                 ///< of the samples [s]
+  const DiagnoseOptions& options;  ///< of the search, with sample_period
   const PageSource& source;
   const Comparison& before;  ///< the model as it is, fitted to all samples
   const Comparison* after;   ///< with the effects found; none if there are none

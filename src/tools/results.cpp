@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "json_of.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "bag_options.h"
+#include "result_fields.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
@@ -14,6 +17,50 @@
 namespace suspension_health_monitor {
 
 // What commands find, for people (print...) and for programs (toJson).
+
+/// @return a result as an object with its fields by name, where an empty optional field is left out; a matrix as a list
+/// of rows, a stamp in seconds, a level or verdict by its name.
+template <class Value>
+nlohmann::json jsonOf(const Value& value);
+
+template <class Item>
+nlohmann::json jsonOf(const std::vector<Item>& items) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Item& item : items) list.push_back(jsonOf(item));
+  return list;
+}
+
+template <class Value>
+void addTo(nlohmann::json& into, const char* name, const Value& value) {
+  into[name] = jsonOf(value);
+}
+
+template <class Value>
+void addTo(nlohmann::json& into, const char* name, const std::optional<Value>& value) {
+  if (value) addTo(into, name, *value);
+}
+
+template <class Value>
+nlohmann::json jsonOf(const Value& value) {
+  if constexpr (Fields<Value>::value) {
+    nlohmann::json into;
+    Fields<Value>::forEach([&](const char* name, auto field) { addTo(into, name, value.*field); });
+    return into;
+  } else if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (Eigen::Index i = 0; i < value.rows(); ++i) {
+      rows.push_back(nlohmann::json::array());
+      for (Eigen::Index j = 0; j < value.cols(); ++j) rows.back().push_back(value(i, j));
+    }
+    return rows;
+  } else if constexpr (std::is_same_v<Value, Stamp>) {
+    return toSeconds(value);
+  } else if constexpr (std::is_enum_v<Value>) {
+    return nameOf(value);
+  } else {
+    return value;
+  }
+}
 
 /// Estimates over time, a line per report; "-" for what is not known.
 void printTable(const std::vector<MonitorReport>& reports);
@@ -34,13 +81,10 @@ nlohmann::json toJson(const IdentifyResult& found, const std::string& change);
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
 nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut);
 
-/// What a search found: the verdict in a sentence, the ranked table, before and after.
-void printSearch(const Diagnosis& found);
+/// What a search found.
 nlohmann::json toJson(const Diagnosis& found);
 
-/// A comparison: the errors by name, where the model fails in sentences, the force that it lacks as a map; for programs
-/// the numbers behind every view.
-void printComparison(const Comparison& comparison);
+/// A comparison, with the numbers behind every view.
 nlohmann::json toJson(const Comparison& comparison);
 
 /// Adds "parameters", "coefficients" and "shapes" by name.

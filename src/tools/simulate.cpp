@@ -17,7 +17,6 @@ namespace po = boost::program_options;
 
 /// Options that have a flag of their own, besides --set NAME=VALUE.
 constexpr std::array kFlags{"scenario", "vehicle", "seed", "duration", "rate"};
-constexpr std::array kFlagsOfOneStrut{"scenario", "vehicle"};
 
 std::string describeRates(const SimulationOptions& drive) {
   const double sprung = drive.rate, unsprung = drive.unsprung_rate.value_or(drive.rate);
@@ -29,7 +28,7 @@ std::string describeRates(const SimulationOptions& drive) {
 void requireFlagsOfOneKind(const po::variables_map& values, const std::string& vehicle_model) {
   if (vehicle_model.empty() && values.count("vehicle-file") != 0)
     throw std::invalid_argument("--vehicle-file, must come with --vehicle-model");
-  for (const char* flag : kFlagsOfOneStrut)
+  for (const char* flag : {"scenario", "vehicle"})
     if (!vehicle_model.empty() && values.count(flag) != 0)
       throw std::invalid_argument(
           "--" + std::string(flag) +

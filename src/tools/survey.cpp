@@ -46,7 +46,7 @@ struct Survey {
 };
 
 Survey survey(const BagOptions& options) {
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, options.period());
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), options.period());
   std::optional<RoughStrut> rough;
   Drive drive;
   // A few blocks of a law with memory look as if the clocks differed, the whole drive does not.

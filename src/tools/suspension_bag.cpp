@@ -65,10 +65,8 @@ int run(const Command& command, const Arguments& arguments) {
 }
 
 int refuseCommand(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Command& command : kCommands) names.emplace_back(command.name);
   std::fprintf(stderr, "suspension_bag: unknown command %s%s\n", shortened(name).c_str(),
-               suggestNearest(name, names).c_str());
+               suggestNearest(name, namesOf(kCommands)).c_str());
   printHelp(stderr);
   return kWrongUsage;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include "command.h"
 #include "suspension_health_monitor/internal/base/text.h"
@@ -31,13 +30,8 @@ std::string whatIsLeft(std::vector<Silence> silences, Stamp first, Stamp last) {
 }  // namespace
 
 void TopicGaps::beginBag(const std::string& path, const std::vector<std::string>& topics) {
-  bags_.push_back(
-      {std::filesystem::path(path).filename().string(),
-       topics,
-       StreamSilence(topics, timeout_, [this](const Silence& ended) { bags_.back().silences.push_back(ended); }),
-       {},
-       {},
-       {}});
+  const auto keep = [this](const Silence& ended) { bags_.back().silences.push_back(ended); };
+  bags_.push_back({fileNames({path}).front(), topics, StreamSilence(topics, timeout_, keep)});
 }
 
 void TopicGaps::note(std::size_t topic, Stamp stamp) {

@@ -38,8 +38,8 @@ class TopicGaps {
     std::string name;
     std::vector<std::string> topics;
     StreamSilence silence;
-    std::vector<StreamSilence::Silence> silences;  // that have ended
-    Stamp first{}, last{};                         // readings
+    std::vector<StreamSilence::Silence> silences = {};  // that have ended
+    Stamp first{}, last{};                              // readings
   };
 
   /// @return by bag one for every silence, then what was used; none if no topic was silent.

@@ -13,9 +13,7 @@ namespace {
 
 using Estimates = std::vector<std::optional<WindowEstimate>>;
 
-BlockEstimator estimatorOf(const NoisyDrive& drive, const BlockOptions& options = {}) {
-  return {BlockBand(2.0, 1.0 / drive.rate), BlockColumns{0, 0}, options};
-}
+BlockEstimator estimatorOf(const NoisyDrive& drive) { return {BlockBand(2.0, 1.0 / drive.rate), BlockColumns{0, 0}}; }
 
 Estimates feed(BlockEstimator& estimator, const SampledStrut& drive) {
   Estimates result;
@@ -57,15 +55,14 @@ TEST(BlockEstimator, TakesTheFewestBlocksThatAreSureEnough) {
     BlockEstimator estimator = estimatorOf(drive);
     const Estimates estimates = feed(estimator, drive.sample());
     ASSERT_TRUE(estimates.back());
-    const BlockOptions options;
     if (noise < 0.1) {
       EXPECT_EQ(estimates.back()->blocks, kBlockWindows.front());
     } else if (noise < 2.0) {
       EXPECT_GT(estimates.back()->blocks, 6);
-      EXPECT_LT(estimates.back()->worst(), options.enough);
+      EXPECT_LT(estimates.back()->worst(), kBlockTuning.enough);
     } else {
       EXPECT_EQ(estimates.back()->blocks, 48);  // all of the 63 that a window may take
-      EXPECT_GT(estimates.back()->worst(), options.enough);
+      EXPECT_GT(estimates.back()->worst(), kBlockTuning.enough);
     }
   }
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/wording/drive_sentences.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -49,7 +49,7 @@ TEST(FreeRun, FollowsAStrutWithEffectsAsIfThereWereNoGravity) {
   const auto wheel = [](double t) { return 1.5 * std::sin(4.0 * t) + 2.0 * std::sin(23.0 * t + 1.0); };
   FineStrut truth({kPaperB1, kPaperB0, effects, {}});
   FreeRun run(kPaperPeriod);
-  run.setModel(kPaperB1, kPaperB0);
+  EXPECT_TRUE(run.trySetModel(kPaperB1, kPaperB0));
   run.setEffects(effects);
   for (int k = 0; k < 4000; ++k) {
     const double t = k * kPaperPeriod;

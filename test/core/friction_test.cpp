@@ -96,12 +96,12 @@ StrutEstimate estimate(double damping, const DryFriction& friction) {
 }
 
 // Both dampers as they act where friction has the mean gain of the two roads, 12.5: 0.2 m/s^2 is 2.5 1/s there.
-TEST(ChangeFromBaseline, IsThatOnARoadBetweenThePresentOneAndTheBaselines) {
+TEST(ChangeFrom, IsThatOnARoadBetweenThePresentOneAndTheBaselines) {
   const Baseline baseline = learnedBaseline();
   const DryFriction now{0.1, 0.02, 5.0, -0.0005};
-  const ChangeFromBaseline changed = changeFrom(baseline, estimate(7.0, now));
-  const LogChange& damping = *changed.change.damping;
-  EXPECT_NEAR(damping.size, std::log((7.0 + 1.25) / (8.0 + 2.5)), 1e-12);
+  const MeasuredChange changed = changeFrom(baseline, estimate(7.0, now));
+  const Measured& damping = *changed.damping;
+  EXPECT_NEAR(damping.value, std::log((7.0 + 1.25) / (8.0 + 2.5)), 1e-12);
   const auto variance = [](double stddev, double law, const DryFriction& friction) {
     return stddev * stddev - law * law + 2.0 * 12.5 * friction.damping_covariance + std::pow(12.5 * friction.stddev, 2);
   };
@@ -111,25 +111,25 @@ TEST(ChangeFromBaseline, IsThatOnARoadBetweenThePresentOneAndTheBaselines) {
   EXPECT_NEAR(damping.stddev, std::sqrt(std::max(0.0, learned) / std::pow(10.5, 2) + present / std::pow(8.25, 2)),
               1e-9);
   EXPECT_TRUE(changed.is_mostly_friction);
-  EXPECT_NEAR(changed.change.stiffness->size, 0.0, 1e-12);
-  EXPECT_NEAR(changed.change.stiffness->stddev, 0.01, 1e-12);
+  EXPECT_NEAR(changed.stiffness->value, 0.0, 1e-12);
+  EXPECT_NEAR(changed.stiffness->stddev, 0.01, 1e-12);
 }
 
-TEST(ChangeFromBaseline, IsThatOfTheDampersWhereFrictionIsNotKnown) {
+TEST(ChangeFrom, IsThatOfTheDampersWhereFrictionIsNotKnown) {
   const Baseline baseline = learnedBaseline();
   Baseline without = baseline;
   without.friction.reset();
   StrutEstimate now = estimate(6.0, {});
   now.friction.reset();
   for (const Baseline& healthy : {baseline, without}) {
-    const ChangeFromBaseline changed = changeFrom(healthy, now);
-    EXPECT_NEAR(changed.change.damping->size, std::log(6.0 / 8.0), 1e-12);
-    EXPECT_NEAR(changed.change.damping->stddev, std::hypot(0.05 / 6.0, 0.3 / 8.0), 1e-12);
+    const MeasuredChange changed = changeFrom(healthy, now);
+    EXPECT_NEAR(changed.damping->value, std::log(6.0 / 8.0), 1e-12);
+    EXPECT_NEAR(changed.damping->stddev, std::hypot(0.05 / 6.0, 0.3 / 8.0), 1e-12);
     EXPECT_FALSE(changed.is_mostly_friction);
   }
-  EXPECT_FALSE(changeFrom({}, now).change.damping);
+  EXPECT_FALSE(changeFrom({}, now).damping);
   now.damping_to_mass = -1.0;
-  EXPECT_FALSE(changeFrom(baseline, now).change.damping);
+  EXPECT_FALSE(changeFrom(baseline, now).damping);
 }
 
 HealthReport reportAfter(const Baseline& baseline, const StrutEstimate& of) {

@@ -12,8 +12,8 @@ namespace {
 constexpr double kSharp = 1e-4;  // standard deviation so small that nothing counts as noise
 
 StrutChange split(double damping, double stiffness, double mass, double range = 0.35, double stddev = kSharp) {
-  return splitChange({LogChange{std::log(damping / mass), stddev}, LogChange{std::log(stiffness / mass), stddev}},
-                     range, 0.0);
+  return splitChange({Measured{std::log(damping / mass), stddev}, Measured{std::log(stiffness / mass), stddev}}, range,
+                     0.0);
 }
 
 TEST(SplitChange, TellsPayloadFromDamage) {
@@ -43,17 +43,17 @@ TEST(SplitChange, WhatIsBeyondThePayloadRangeIsDamage) {
 }
 
 TEST(SplitChange, ADamageIsAsCertainAsItIsThatNoLoadDidIt) {
-  const StrutChange unloaded = splitChange({LogChange{-0.2, 0.01}, LogChange{0.0, 0.02}}, 0.35, 0.0);
+  const StrutChange unloaded = splitChange({Measured{-0.2, 0.01}, Measured{0.0, 0.02}}, 0.35, 0.0);
   EXPECT_NEAR(std::log1p(*unloaded.damping), -0.2, 1e-12);
   EXPECT_NEAR(unloaded.damping_stddev, 0.01, 1e-12);  // the noise of stiffness does not enter the size
   EXPECT_NEAR(unloaded.load_alone->distance, 0.2 / std::hypot(0.01, 0.02), 1e-9);
   // No load of the range takes more than ln(1.35) = 0.3 away: the rest is as certain as the damping is.
-  const StrutChange beyond = splitChange({LogChange{-0.7, 0.01}, LogChange{0.0, 0.5}}, 0.35, 0.0);
+  const StrutChange beyond = splitChange({Measured{-0.7, 0.01}, Measured{0.0, 0.5}}, 0.35, 0.0);
   EXPECT_GT(beyond.load_alone->distance, 0.39 / 0.01);
-  const StrutChange loaded = splitChange({LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}}, 0.35, 0.0);
+  const StrutChange loaded = splitChange({Measured{-0.2, 0.01}, Measured{-0.1, 0.02}}, 0.35, 0.0);
   EXPECT_NEAR(loaded.damping_stddev, std::hypot(0.01, 0.02), 1e-12);
   EXPECT_NEAR(std::log1p(*loaded.payload), 0.1 * (1.0 - 0.16), 1e-12);  // (2 * 0.02 / 0.1)^2
-  const StrutChange alone = splitChange({LogChange{-0.2, 0.01}, std::nullopt}, 0.35, 0.0);
+  const StrutChange alone = splitChange({Measured{-0.2, 0.01}, std::nullopt}, 0.35, 0.0);
   EXPECT_FALSE(alone.payload);
   EXPECT_EQ(alone.damping_stddev, 0.01);
   EXPECT_FALSE(split(0.8, 1.0, 1.0, 0.0).load_alone);  // none may be
@@ -62,7 +62,7 @@ TEST(SplitChange, ADamageIsAsCertainAsItIsThatNoLoadDidIt) {
 // -30 % of mass, then -30 % of damping: damping alone would look as if nothing had happened to it, and the spring
 // stiffer.
 TEST(SplitChange, CountsTheLoadFromTheOneThatWasThere) {
-  const LogChange damping{std::log(0.7 / 0.7), kSharp}, stiffness{std::log(1.0 / 0.7), kSharp};
+  const Measured damping{std::log(0.7 / 0.7), kSharp}, stiffness{std::log(1.0 / 0.7), kSharp};
   const StrutChange change = splitChange({damping, stiffness}, 0.35, std::log(0.7));
   EXPECT_NEAR(*change.damping, -0.3, 1e-9);
   EXPECT_NEAR(*change.stiffness, 0.0, 1e-9);
@@ -71,18 +71,18 @@ TEST(SplitChange, CountsTheLoadFromTheOneThatWasThere) {
 }
 
 TEST(LoadAlone, IsTheWeightedMeanWithinItsRange) {
-  const LoadAlone load = explainByLoad({LogChange{-0.2, 0.01}, LogChange{-0.1, 0.02}}, {-0.4, 0.3});
+  const LoadAlone load = explainByLoad({Measured{-0.2, 0.01}, Measured{-0.1, 0.02}}, {-0.4, 0.3});
   EXPECT_NEAR(load.log_mass, (0.2 * 4.0 + 0.1) / 5.0, 1e-12);
   EXPECT_NEAR(load.distance, 0.1 / std::hypot(0.01, 0.02), 1e-9);  // of two values from their common mean
-  EXPECT_EQ(explainByLoad({LogChange{-0.7, 0.01}, LogChange{-0.5, 0.01}}, {-0.4, 0.3}).log_mass, 0.3);
-  EXPECT_EQ(explainByLoad({LogChange{0.7, 0.01}, LogChange{0.5, 0.01}}, {-0.4, 0.3}).log_mass, -0.4);
+  EXPECT_EQ(explainByLoad({Measured{-0.7, 0.01}, Measured{-0.5, 0.01}}, {-0.4, 0.3}).log_mass, 0.3);
+  EXPECT_EQ(explainByLoad({Measured{0.7, 0.01}, Measured{0.5, 0.01}}, {-0.4, 0.3}).log_mass, -0.4);
 }
 
 // Errors that both share are no distance: of x1 - x0, which no load moves, the variance is d^2 + s^2 - 2 c d s.
 TEST(LoadAlone, KnowsThatErrorsOfBothAreCorrelated) {
   constexpr double kDamping = 0.03, kStiffness = 0.01;
   for (const double correlation : {-0.8, 0.0, 0.8}) {
-    const MeasuredChange both{LogChange{-0.2, kDamping}, LogChange{-0.1, kStiffness}, correlation};
+    const MeasuredChange both{Measured{-0.2, kDamping}, Measured{-0.1, kStiffness}, correlation};
     const double apart =
         std::sqrt(kDamping * kDamping + kStiffness * kStiffness - 2.0 * correlation * kDamping * kStiffness);
     EXPECT_NEAR(explainByLoad(both, {-0.4, 0.4}).distance, 0.1 / apart, 1e-9) << correlation;
@@ -173,9 +173,9 @@ TEST(BaselineLearner, KnowsByHowMuchHealthyWindowsScatter) {
   EXPECT_NEAR(learned->damping_scatter, scatter, 0.02 * scatter);
   EXPECT_EQ(learned->stiffness_scatter, 0.0);
   EXPECT_NEAR(learned->damping_to_mass_stddev, 0.06 / 5.0, 0.05 * 0.06 / 5.0);
-  const ChangeFromBaseline changed = changeFrom(*learned, estimate(3.0, 13.8));
-  ASSERT_TRUE(changed.change.damping);
-  EXPECT_NEAR(changed.change.damping->stddev, std::hypot(scatter, 0.02, 0.06 / 5.0) / 3.0, 0.02 * scatter / 3.0);
+  const MeasuredChange changed = changeFrom(*learned, estimate(3.0, 13.8));
+  ASSERT_TRUE(changed.damping);
+  EXPECT_NEAR(changed.damping->stddev, std::hypot(scatter, 0.02, 0.06 / 5.0) / 3.0, 0.02 * scatter / 3.0);
 }
 
 // Each half is steady, and they are too near to each other for a drift: the road between them has changed.
@@ -232,11 +232,11 @@ TEST(BaselineLearner, LearnsHowDampingGoesWithTheTemperature) {
   EXPECT_LT(learned->temperature->per_kelvin_stddev, 0.0003);
   for (const double celsius : {-10.0, 80.0}) {
     StrutEstimate now = warmEstimate(celsius);
-    const LogChange healthy = *changeFrom(*learned, now).change.damping;
-    EXPECT_NEAR(healthy.size, 0.0, 3.0 * healthy.stddev) << celsius;
+    const Measured healthy = *changeFrom(*learned, now).damping;
+    EXPECT_NEAR(healthy.value, 0.0, 3.0 * healthy.stddev) << celsius;
     EXPECT_LT(healthy.stddev, 0.03) << celsius;
     now.damping_to_mass *= 0.7;
-    EXPECT_NEAR(changeFrom(*learned, now).change.damping->size, std::log(0.7), 3.0 * healthy.stddev) << celsius;
+    EXPECT_NEAR(changeFrom(*learned, now).damping->value, std::log(0.7), 3.0 * healthy.stddev) << celsius;
   }
 }
 
@@ -244,13 +244,13 @@ TEST(BaselineLearner, OfOneTemperatureDoesNotKnowWhatAnotherOneDoes) {
   BaselineLearner learner(100.0);
   std::optional<Baseline> learned;
   for (int k = 0; !learned; ++k) learned = learner.add(fromSeconds(k), warmEstimate(20.0), 1.0);
-  const LogChange warm = *changeFrom(*learned, warmEstimate(60.0)).change.damping;
+  const Measured warm = *changeFrom(*learned, warmEstimate(60.0)).damping;
   EXPECT_NEAR(warm.stddev, 40.0 * DamperTemperature::kPriorStddev, 0.01);
-  EXPECT_NEAR(warm.size, -0.003 * 40.0, 1e-6);
-  EXPECT_LT(changeFrom(*learned, warmEstimate(20.0)).change.damping->stddev, 0.01);
+  EXPECT_NEAR(warm.value, -0.003 * 40.0, 1e-6);
+  EXPECT_LT(changeFrom(*learned, warmEstimate(20.0)).damping->stddev, 0.01);
   StrutEstimate without = warmEstimate(20.0);
   without.temperature.reset();
-  EXPECT_LT(changeFrom(*learned, without).change.damping->stddev, 0.01);
+  EXPECT_LT(changeFrom(*learned, without).damping->stddev, 0.01);
 }
 
 }  // namespace

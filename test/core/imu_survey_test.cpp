@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "suspension_health_monitor/internal/wording/imu_sentences.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

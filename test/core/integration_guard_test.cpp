@@ -32,7 +32,7 @@ std::string complaint(const SimulationOptions& options) {
   return {};
 }
 
-TEST(IntegrationGuard, EndsADriveThatRunsAway) {
+TEST(VehicleMotion, EndsADriveThatRunsAway) {
   EXPECT_EQ(complaint(hiding("quadratic_damping", 5.0, {})), "");
   for (const auto& [name, coefficient] :
        {std::pair("quadratic_damping", -50.0), std::pair("asymmetric_damping", -400.0),
@@ -43,7 +43,7 @@ TEST(IntegrationGuard, EndsADriveThatRunsAway) {
   }
 }
 
-TEST(IntegrationGuard, EndsADriveThatWouldNotEnd) {
+TEST(VehicleMotion, EndsADriveThatWouldNotEnd) {
   EXPECT_EQ(complaint(hiding("coulomb_friction", 1.0, {1e-4})), "");
   EXPECT_EQ(complaint(hiding("hysteresis", 1.0, {1e-4})), "");
   for (const char* name : {"coulomb_friction", "hysteresis"}) {
@@ -54,7 +54,7 @@ TEST(IntegrationGuard, EndsADriveThatWouldNotEnd) {
   }
 }
 
-TEST(IntegrationGuard, NamesEveryHiddenEffect) {
+TEST(VehicleMotion, NamesEveryHiddenEffect) {
   SimulationOptions options = hiding("bump_stop", 20.0, {0.01});
   options.hidden.push_back({findEffect(forceEffects(), "asymmetric_damping"), -400.0, {}});
   const std::string words = complaint(options);
@@ -62,7 +62,7 @@ TEST(IntegrationGuard, NamesEveryHiddenEffect) {
 }
 
 // The stiffest strut that the settings allow has steps of its own and is no case for the guard.
-TEST(IntegrationGuard, LetsAStiffStrutAndFastSensorsPass) {
+TEST(VehicleMotion, LetsAStiffStrutAndFastSensorsPass) {
   SimulationOptions stiff = scenario("iso_road", 0.05);
   stiff.vehicle = "ugv";
   stiff.stiffness_to_mass = 1e8;

@@ -46,7 +46,7 @@ struct HiddenDrive {
   /// Rms error of the true model, driven by the measured wheel, over the monitor's window at the end.
   double floor() const {
     FreeRun truth(0.01);
-    truth.setModel(kCarB1, kCarB0);
+    EXPECT_TRUE(truth.trySetModel(kCarB1, kCarB0));
     truth.setEffects({effect});
     RunningComparison comparison(0.999);
     for (std::size_t k = 0; k < samples.size(); ++k) {

@@ -71,8 +71,8 @@ TEST(PaperClaims, EndStopsThrowLeastSquaresOffAndLeaveLeastAbsoluteAlone) {
 TEST(PaperClaims, LiveDefaultsAreThoseOfTheTable) {
   const MonitorSettings options;
   EXPECT_EQ(options.forgettingFactor(0.02), 0.99);
-  EXPECT_EQ(options.leastAbsolute().small_divisor_rule, SmallDivisor::kRelative);
-  EXPECT_EQ(options.leastAbsolute().small_divisor, 0.2);
+  EXPECT_EQ(options.estimators.least_absolute.small_divisor_rule, SmallDivisor::kRelative);
+  EXPECT_EQ(options.estimators.least_absolute.small_divisor, 0.2);
   EXPECT_EQ(options.estimators.rule, IntegrationRule::kBandLimited);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include "paper_drive.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
 
@@ -12,7 +14,7 @@ constexpr double kPaperStepError = 1.5e-6;
 
 inline FreeRun paperFreeRun() {
   FreeRun run(kPaperPeriod);
-  run.setModel(kPaperB1, kPaperB0);
+  EXPECT_TRUE(run.trySetModel(kPaperB1, kPaperB0));
   return run;
 }
 

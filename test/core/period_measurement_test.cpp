@@ -72,9 +72,9 @@ TEST(PeriodMeasurement, OfManyStreamsIsThatOfTheSlowestOneThatIsRequired) {
 
 TEST(PeriodMeasurement, TellsOfAStampThatStandsStill) {
   PeriodMeasurement measurement(2);
-  EXPECT_TRUE(measurement.add(Side::kSprung, at(0.0)));
   EXPECT_FALSE(measurement.add(Side::kSprung, at(0.0)));
-  EXPECT_TRUE(measurement.add(Side::kUnsprung, at(0.0)));  // the streams are told apart
+  EXPECT_TRUE(measurement.add(Side::kSprung, at(0.0)));
+  EXPECT_FALSE(measurement.add(Side::kUnsprung, at(0.0)));  // every stream has its own stamp before
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "interleaved.h"
-#include "suspension_health_monitor/internal/signal/grids.h"
+#include "suspension_health_monitor/internal/signal/stream_grid.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "uniform_grid.h"
 
@@ -91,7 +91,7 @@ std::vector<double> jumps(const std::vector<CornerSample>& samples) {
 const GridOptions kResampled{Alignment::kResampled, 240};
 const GridOptions kAuto{Alignment::kAuto, 240};
 
-TEST(ResampledGrid, GivesBothSensorsAtTheInstantsOfOneUniformSeries) {
+TEST(ResampledStreamGrid, GivesBothSensorsAtTheInstantsOfOneUniformSeries) {
   Messages messages(1);
   UniformGrid grid(kPeriod, kResampled);
   const std::vector<CornerSample> samples =
@@ -105,7 +105,7 @@ TEST(ResampledGrid, GivesBothSensorsAtTheInstantsOfOneUniformSeries) {
   EXPECT_EQ(grid.streams().rejected().total(), 0u);
 }
 
-TEST(ResampledGrid, DoesNotDependOnTheOrderInWhichTheStreamsInterleave) {
+TEST(ResampledStreamGrid, DoesNotDependOnTheOrderInWhichTheStreamsInterleave) {
   Messages messages(2);
   const auto sprung = messages.of(Side::kSprung, 200.0, 1.0, 4.0, 0.001, 0.1);
   const auto unsprung = messages.of(Side::kUnsprung, 333.0, 1.0, 4.0, 0.001, 0.1);
@@ -126,7 +126,7 @@ TEST(ResampledGrid, DoesNotDependOnTheOrderInWhichTheStreamsInterleave) {
   }
 }
 
-TEST(ResampledGrid, BridgesThreeLostReadingsAndBeginsAnewAfterMore) {
+TEST(ResampledStreamGrid, BridgesThreeLostReadingsAndBeginsAnewAfterMore) {
   for (const int lost : {3, 4}) {
     Messages messages(3);
     std::vector<Message> sprung = messages.of(Side::kSprung, 200.0, 1.0, 3.0);
@@ -143,7 +143,7 @@ TEST(ResampledGrid, BridgesThreeLostReadingsAndBeginsAnewAfterMore) {
   }
 }
 
-TEST(ResampledGrid, GoesOnAfterPausesLoopsAndSilenceOfOne) {
+TEST(ResampledStreamGrid, GoesOnAfterPausesLoopsAndSilenceOfOne) {
   Messages messages(4);
   UniformGrid grid(kPeriod, kResampled);
   const auto both = [&](double from, double to) {
@@ -160,7 +160,7 @@ TEST(ResampledGrid, GoesOnAfterPausesLoopsAndSilenceOfOne) {
   EXPECT_GT(both(202.0, 204.0).size(), 375u);
 }
 
-TEST(ResampledGrid, KeepsOutASensorThatIsStuck) {
+TEST(ResampledStreamGrid, KeepsOutASensorThatIsStuck) {
   Messages messages(5);
   std::vector<Message> unsprung = messages.of(Side::kUnsprung, 333.0, 1.0, 3.0);
   for (std::size_t i = 200; i < 400; ++i) unsprung[i].acceleration = 9.81;
@@ -171,7 +171,7 @@ TEST(ResampledGrid, KeepsOutASensorThatIsStuck) {
   EXPECT_NEAR(static_cast<double>(samples + stuck), 400 - 2 * StreamResampler::kHalfWidth, 3.0);
 }
 
-TEST(ResampledGrid, GivesTheRoadAtTheSameInstantsAndDoesWithoutIt) {
+TEST(ResampledStreamGrid, GivesTheRoadAtTheSameInstantsAndDoesWithoutIt) {
   Messages messages(6);
   UniformGrid grid(kPeriod, kResampled, true);
   std::vector<Message> road_readings = messages.of(Side::kRoad, 500.0, 1.0, 3.0, 0.001, 0.02);

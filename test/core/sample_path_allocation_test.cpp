@@ -78,7 +78,7 @@ TEST(SamplePath, AllocatesNothingInTheBlocksOfAStrutOnceTheyKnowIt) {
   drive.seconds = 128.0;
   drive.body_noise = drive.wheel_noise = 0.5;
   const SampledStrut sampled = drive.sample();
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   // The first estimate is followed by what all blocks tell, from the eighth on.
   long before = 0;
   int estimates = 0;

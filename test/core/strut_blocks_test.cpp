@@ -62,7 +62,7 @@ SampledStrut withFriction(const NoisyDrive& drive, double friction) {
 TEST(BlocksOfAStrut, GiveTheStrutTheDelayAndTheTimeOfTheNewestBlock) {
   NoisyDrive drive;
   drive.delay = 0.003;
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   const std::vector<TopEstimate> estimates = feed(blocks, readingsOf(drive.sample(), 1000.0));
   ASSERT_EQ(estimates.size(), 28u);  // blocks 2 to 29 of 0 to 29: the last reading is before 32 s
   const TopEstimate& last = estimates.back();
@@ -83,7 +83,7 @@ TEST(BlocksOfAStrut, KnowTheStrutWhateverTheGainOfASensor) {
       NoisyDrive drive;
       auto sampled = drive.sample();
       for (double& value : of_wheel ? sampled.wheel : sampled.body) value *= gain;
-      VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+      VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
       const TopEstimate last = feed(blocks, readingsOf(sampled)).back();
       EXPECT_NEAR(last.theta[0] / drive.b1, 1.0, 4.0 * last.relativeStddev(0)) << gain;
       EXPECT_NEAR(last.theta[1] / drive.b0, 1.0, 4.0 * last.relativeStddev(1)) << gain;
@@ -104,7 +104,7 @@ TEST(BlocksOfAStrut, GiveTheTravelRateOfTheStrut) {
   }
   double sum = 0.0, count = 0.0;
   for (drive.seed = 1; drive.seed <= 10; ++drive.seed) {
-    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
     for (const TopEstimate& each : feed(blocks, readingsOf(drive.sample()))) {
       sum += each.rate * each.rate;
       count += 1.0;
@@ -122,10 +122,8 @@ TEST(BlocksOfAStrut, DependOnNoUnit) {
   SampledStrut scaled{16.0 * sampled.rate, sampled.body, sampled.wheel};
   for (double& each : scaled.body) each *= 1000.0;
   for (double& each : scaled.wheel) each *= 1000.0;
-  BlockOptions options, scaled_options;
-  scaled_options.length = options.length / 16.0;
-  VehicleBlocks one(VehicleChannels::ofAccelerometers(), options, 1.0 / sampled.rate);
-  VehicleBlocks other(VehicleChannels::ofAccelerometers(), scaled_options, 1.0 / scaled.rate);
+  VehicleBlocks one(VehicleChannels::ofAccelerometers(), 1.0 / sampled.rate);
+  VehicleBlocks other(VehicleChannels::ofAccelerometers(), 1.0 / scaled.rate, kBlockTuning.length / 16.0);
   const std::vector<TopEstimate> plain = feed(one, readingsOf(sampled)), turned = feed(other, readingsOf(scaled));
   ASSERT_EQ(plain.size(), turned.size());
   const double units[] = {16.0, 256.0, 1.0 / 16.0, 1.0, 1.0, 1000.0};
@@ -151,8 +149,8 @@ TEST(BlocksOfAStrut, MayGetTheWheelsReadingsInBurstsOfThreeSeconds) {
     };
     return time(a) < time(b);
   });
-  VehicleBlocks one(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate),
-      other(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks one(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate),
+      other(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   const std::vector<TopEstimate> first = feed(one, even);
   std::vector<TopEstimate> second;
   for (const VehicleReading& reading : bursts)
@@ -168,8 +166,8 @@ TEST(BlocksOfAStrut, AreTheSameWhicheverSensorOfAnInstantComesFirst) {
   const NoisyDrive drive;
   std::vector<VehicleReading> body_first = readingsOf(drive.sample()), wheel_first = body_first;
   for (std::size_t i = 0; i < wheel_first.size(); i += 2) std::swap(wheel_first[i], wheel_first[i + 1]);
-  VehicleBlocks one(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate),
-      other(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks one(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate),
+      other(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   const std::vector<TopEstimate> first = feed(one, body_first), second = feed(other, wheel_first);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i)
@@ -180,7 +178,7 @@ TEST(BlocksOfAStrut, AreTheSameWhicheverSensorOfAnInstantComesFirst) {
 TEST(BlocksOfAStrut, SayNothingWhileOneSensorIsSilentAndGoOnAfterwards) {
   NoisyDrive drive;
   drive.seconds = 64.0;
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   std::vector<VehicleReading> readings = readingsOf(drive.sample());
   const auto silent = [](const VehicleReading& reading) {
     const double t = toSeconds(reading.stamp);
@@ -195,7 +193,7 @@ TEST(BlocksOfAStrut, SayNothingWhileOneSensorIsSilentAndGoOnAfterwards) {
     EXPECT_NEAR(each.theta[0] / drive.b1, 1.0, 5.0 * each.relativeStddev(0));
   }
 
-  VehicleBlocks deaf(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks deaf(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   for (const VehicleReading& reading : readings)
     if (reading.sensor == Sensor::kTop) {
       EXPECT_EQ(deaf.push(reading), nullptr);
@@ -206,14 +204,14 @@ TEST(BlocksOfAStrut, SayNothingOfSensorsThatReadTooSeldom) {
   for (const double rate : {2.0, 1.0, 0.5}) {  // of a bounce of 1.15 Hz
     NoisyDrive drive;
     drive.rate = rate;
-    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / rate);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / rate);
     EXPECT_TRUE(feed(blocks, readingsOf(drive.sample())).empty()) << rate << " Hz";
   }
 }
 
 TEST(BlocksOfAStrut, GoOnAfterAClockThatWentBackOnceTheyAreRestarted) {
   NoisyDrive drive;
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   feed(blocks, readingsOf(drive.sample(), 5000.0));
   ASSERT_NE(blocks.estimate(), nullptr);
   blocks.restart();
@@ -232,7 +230,7 @@ TEST(BlocksOfAStrut, FollowTheBounceWithTheirLength) {
     drive.b1 = 0.5 * std::sqrt(b0);
     drive.rate = 128.0;
     drive.seconds = 64.0;
-    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
     feed(blocks, readingsOf(drive.sample()));
     ASSERT_NE(blocks.estimate(), nullptr);
     EXPECT_EQ(blocks.estimate()->length, length) << b0;
@@ -248,7 +246,7 @@ TEST(BlocksOfAStrut, KnowTheDriveByTheBlocksThatAreMostOfItThoughTheirLengthChan
   soft.b0 = 12.0;
   soft.b1 = 0.5 * std::sqrt(soft.b0);
   soft.seconds = 20.0;
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
   feed(blocks, readingsOf(drive.sample()));
   const double first_length = blocks.length();
   const std::optional<TopEstimate> before = blocks.overTheDrive();
@@ -283,7 +281,7 @@ TEST(BlocksOfAStrut, NeedNeitherCommonNorEvenStampsOfTheSensors) {
   }
   std::stable_sort(readings.begin(), readings.end(),
                    [](const VehicleReading& a, const VehicleReading& b) { return a.stamp < b.stamp; });
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 0.01);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 0.01);
   feed(blocks, readings);
   const std::optional<TopEstimate> found = blocks.overTheDrive();
   ASSERT_TRUE(found);
@@ -298,7 +296,7 @@ TEST(BlocksOfAStrut, RecoverCoulombsFrictionWithinATenth) {
     NoisyDrive drive;
     drive.rate = 100.0;
     drive.seconds = 64.0;
-    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), {}, 1.0 / drive.rate);
+    VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
     feed(blocks, readingsOf(withFriction(drive, friction)));
     const std::optional<TopEstimate> found = blocks.overTheDrive();
     ASSERT_TRUE(found);

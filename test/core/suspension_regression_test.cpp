@@ -75,7 +75,7 @@ TEST(SuspensionRegression, DoesNotSeeGravityCommonToBothSensorsNorAnOffsetOfTheB
 // A reading of the wheel that drifts by `step` in a row: the offset of the newest reading, less the step's part.
 TEST(SuspensionRegression, AnOffsetThatDriftsIsItsTwoColumns) {
   constexpr double kOffset = 0.4, kStep = 1e-3, kB0 = 50.0;
-  SuspensionRegression regression(kFilter, 0, SensorColumns::kDriftingOffset);
+  SuspensionRegression regression(kFilter, 0, true);
   for (int k = 0; k < 100; ++k) {
     const double offset = kOffset + k * kStep;
     const RegressionRow* row = regression.push({Stamp{}, 0.0, offset});

@@ -154,12 +154,12 @@ TEST(UdCovariance, OfOtherParametersKeepsWhatIsKnownOfThoseThatStay) {
   UdCovariance before = released(4, 1e5);
   std::mt19937_64 engine(5);
   for (int k = 0; k < 50; ++k) before.update(randomRegressor(4, engine), 0.9, 0.98);
-  const std::vector<std::optional<int>> sources{2, std::nullopt, 0, 3};
+  const std::vector<ColumnOrigin> sources{{2}, {}, {0}, {3}};
   UdCovariance after(before, sources);
   const Eigen::MatrixXd p = before.matrix(), kept = after.matrix();
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
-      const auto &from = sources[static_cast<std::size_t>(i)], &to = sources[static_cast<std::size_t>(j)];
+      const auto from = sources[static_cast<std::size_t>(i)].before, to = sources[static_cast<std::size_t>(j)].before;
       EXPECT_NEAR(kept(i, j), from && to ? p(*from, *to) : 0.0, 1e-12 * p.norm()) << i << ", " << j;
     }
   EXPECT_TRUE(after.isReleased(0));

@@ -115,7 +115,7 @@ TEST(VehicleBlocks, OrderBetweenStreamsDoesNotMatter) {
   const vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
   std::vector<BlockVector> last;
   for (const std::size_t burst : {1, 70}) {  // readings of a sensor at once
-    VehicleBlocks blocks(channelsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
+    VehicleBlocks blocks(channelsOf(vehicle, drive), 1.0 / drive.rate);
     for (std::size_t from = 0; from < record.wheel[0].size(); from += burst)
       for (const bool is_wheel : {false, true})
         for (std::size_t i = 0; i < 2; ++i)
@@ -138,7 +138,7 @@ TEST(VehicleBlocks, GapsCostBlocksOnly) {
   const vehicle_drive::Vehicle vehicle = vehicle_drive::made("half", 1);
   const vehicle_drive::Drive drive = shortDrive();
   const vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
-  VehicleBlocks blocks(channelsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
+  VehicleBlocks blocks(channelsOf(vehicle, drive), 1.0 / drive.rate);
   for (std::size_t k = 0; k < record.wheel[0].size(); ++k) {
     const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -158,7 +158,7 @@ TEST(VehicleBlocks, RowsAreThoseOfTheBody) {
   const vehicle_drive::Vehicle vehicle = vehicle_drive::made("sedan", 2);
   const vehicle_drive::Drive drive = shortDrive();
   const vehicle_drive::Record record = vehicle_drive::drive(vehicle, drive);
-  VehicleBlocks blocks(channelsOf(vehicle, drive), BlockOptions{}, 1.0 / drive.rate);
+  VehicleBlocks blocks(channelsOf(vehicle, drive), 1.0 / drive.rate);
   for (std::size_t k = 0; k < record.wheel[0].size(); ++k)
     for (std::size_t i = 0; i < 4; ++i) {
       const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
@@ -178,10 +178,10 @@ TEST(VehicleBlocks, RowsAreThoseOfTheBody) {
 
 TEST(VehicleBlocks, RefusesWhatIsNoVehicle) {
   VehicleChannels channels;
-  EXPECT_THROW(VehicleBlocks(channels, BlockOptions{}, 0.01), std::invalid_argument);
+  EXPECT_THROW(VehicleBlocks(channels, 0.01), std::invalid_argument);
   channels.struts.resize(2);
   channels.struts[0].sprung = 0;
-  EXPECT_THROW(VehicleBlocks(channels, BlockOptions{}, 0.01), std::invalid_argument);
+  EXPECT_THROW(VehicleBlocks(channels, 0.01), std::invalid_argument);
 }
 
 }  // namespace

@@ -179,7 +179,7 @@ TEST(VehicleClaims, SayThatAStrutIsMissing) {
     for (const std::size_t known : {2u, 3u}) {
       vehicle_drive::Vehicle vehicle = vehicle_drive::made(made, 1);
       Record record = vehicle_drive::drive(vehicle, shortDrive());
-      VehicleBlocks blocks(VehicleChannels::ofAccelerometers(known), BlockOptions{}, 0.01);
+      VehicleBlocks blocks(VehicleChannels::ofAccelerometers(known), 0.01);
       for (std::size_t k = 0; k < record.wheel.front().size(); ++k)
         for (std::size_t i = 0; i < known; ++i) {
           blocks.push({Sensor::kTop, i, fromSeconds(0.01 * static_cast<double>(k)), {record.body[i][k]}});

@@ -64,6 +64,13 @@ TEST(SeparatedVehicle, RefusesStrutsWithoutTheSameStamps) {
   EXPECT_THROW(separateVehicle({drive}, {"front"}), std::invalid_argument);
 }
 
+TEST(SeparatedVehicle, RefusesPositionsOfAnotherNumberOfStruts) {
+  const Vehicle vehicle = namedVehicle("half_sedan");
+  VehicleDrive drive{strutDrives(vehicle, vehicleDrive(5.0))};
+  drive.places = {{1.2, 0.0}};
+  EXPECT_THROW(separateVehicle({drive}, strutNames(vehicle)), std::invalid_argument);
+}
+
 TEST(SeparatedVehicle, TakesTheModelsThatAreKnown) {
   const Vehicle vehicle = namedVehicle("half_sedan");
   const std::vector<VehicleDrive> drives{strutDrives(vehicle, vehicleDrive(60.0))};

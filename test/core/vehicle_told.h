@@ -44,7 +44,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
   VehicleChannels channels = channelsOf(vehicle, drive);
   if (change) change(record, channels);
   const std::size_t n = vehicle.struts.size();
-  VehicleBlocks blocks(channels, BlockOptions{}, 1.0 / drive.rate);
+  VehicleBlocks blocks(channels, 1.0 / drive.rate);
   Told told;
   told.estimates.resize(n);
   const auto keep = [&](const TopEstimate* estimate) {
@@ -66,7 +66,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
   VehicleClaims claims = blocks.claims();
   told.mistake = claims.find();
   told.model_errors = claims.modelErrors();
-  if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit::of(n, channels.places()).fit(rows, blocks.rowsOfHalves());
+  if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit(n, channels.places()).fit(rows, blocks.rowsOfHalves());
   return told;
 }
 

@@ -214,6 +214,11 @@ TEST_F(VehicleBags, OfOtherVehiclesAreRefused) {
   writeDrive(path("drive.bag"), 1.0, true);
   expectNamed(said("body_imu: /imu/data\nstruts: {only: {unsprung_imu: /wheel/front, frame: front_strut}}"),
               {"struts/only/frame = \"front_strut\"", "imu_link"});
+  expectNamed(said("body_imu: /imu/data\n"
+                   "struts:\n"
+                   "  left: {unsprung_imu: /wheel/front, frame: rear_strut}\n"
+                   "  right: {unsprung_imu: /wheel/rear, frame: rear_strut}\n"),
+              {"struts/right/frame is where struts/left is"});
 }
 
 TEST_F(VehicleBags, NeedAVehicleFileWithoutMistakes) {

@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/base/option_table.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 #include <cmath>
 #include <limits>
@@ -54,9 +55,7 @@ std::string allowedText(const option_table::Bound& option) {
   if (std::holds_alternative<bool*>(option.member)) return "true or false";
   if (std::holds_alternative<std::string*>(option.member)) {
     if (option.choices.empty()) return "any text";
-    std::string words = "one of ";
-    for (const char letter : option.choices) words += letter == ' ' ? std::string(", ") : std::string(1, letter);
-    return words;
+    return "one of " + boost::algorithm::replace_all_copy(std::string(option.choices), " ", ", ");
   }
   const char* const whole = std::holds_alternative<int*>(option.member) ? "a whole number " : "";
   return whole + ("in [" + numberText(option.min)) + ", " + numberText(option.max) + "]";
@@ -114,6 +113,13 @@ auto as(const OptionValue& value) {
     return asNumber(value);
 }
 
+/// @throws std::invalid_argument  if a name is longer than any that somebody has chosen.
+void requireNameLength(const std::string& name) {
+  if (name.size() > kLongestName)
+    throw std::invalid_argument("name " + shortened(name) + ", must be at most " + std::to_string(kLongestName) +
+                                " characters");
+}
+
 }  // namespace
 
 namespace option_table {
@@ -150,12 +156,6 @@ OptionDescription describe(const Bound& option) {
 }
 
 }  // namespace option_table
-
-void requireNameLength(const std::string& name) {
-  if (name.size() > kLongestName)
-    throw std::invalid_argument("name " + shortened(name) + ", must be at most " + std::to_string(kLongestName) +
-                                " characters");
-}
 
 void refuseUnknown(const OptionMap& values, const std::vector<OptionDescription>& known) {
   if (values.empty()) return;

@@ -22,9 +22,8 @@ bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
 
 }  // namespace
 
-BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options)
-    : options_(options),
-      equations_(band, columns),
+BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& columns)
+    : equations_(band, columns),
       window_fit_(band, columns, kBlockWindows.back()),
       ring_(kBlockWindows.back(), equations_.makeBlock()),
       drive_(band, columns) {
@@ -53,7 +52,7 @@ BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& column
 
 StrutBlock& BlockEstimator::next() {
   if (count_ == kBlockWindows.back()) retire(block(kBlockWindows.back() - 1));
-  head_ = (head_ + 1) % kBlockWindows.back();
+  ring_.rotate(ring_.begin() + 1);  // the oldest place is the newest now
   count_ = std::min(count_ + 1, kBlockWindows.back());
   block(0).at.setZero();
   return block(0);
@@ -109,7 +108,7 @@ const WindowEstimate* BlockEstimator::update() {
       std::swap(best_, trial_);
       window = m;
     }
-    if (best_.worst() < options_.enough) break;
+    if (best_.worst() < kBlockTuning.enough) break;
   }
   if (window == 0) {
     has_theta_ = false;

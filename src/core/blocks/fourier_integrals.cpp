@@ -38,7 +38,6 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
     : band_(band),
       half_length_(band.length / 2.0),
       longest_spacing_(kBlockTuning.longest_spacing * band.length),
-      channels_(channels),
       interpolated_(kBlockTuning.most_lost),
       first_(channels) {
   real_.setZero(band.last + 1, channels);
@@ -88,7 +87,7 @@ void FourierIntegrals::bridge(double next_time, const double* next, Phases& phas
     Reading& between = interpolated_[k - 1];
     between.time = at[1] + k * spacing;
     const std::array<double, 4> weights = lagrange(at, between.time);
-    for (std::size_t j = 0; j < channels_; ++j)
+    for (std::size_t j = 0; j < first_.size(); ++j)
       between.values[j] = weights[0] * before_.values[j] + weights[1] * last_.values[j] + weights[2] * held_.values[j] +
                           weights[3] * next[j];
     addSpacing(*left, between, phases);
@@ -145,7 +144,7 @@ void FourierIntegrals::begin(long index) {
 
 void FourierIntegrals::add(const Reading& reading, double weight, Phases& phases) {
   phases.turnTo(reading.time - static_cast<double>(open_) * half_length_);
-  for (std::size_t j = 0; j < channels_; ++j) {
+  for (std::size_t j = 0; j < first_.size(); ++j) {
     const double x = weight * (reading.values[j] - first_[j]);
     real_.col(j) += x * phases.cosines();
     imaginary_.col(j) += x * phases.sines();
@@ -155,8 +154,7 @@ void FourierIntegrals::add(const Reading& reading, double weight, Phases& phases
 void FourierIntegrals::finishUntil(long index) {
   if (index == open_) return;
   Half& half = halves_[open_ % kHalves];
-  half.index = open_;
-  half.is_complete = is_whole_;
+  half.index = is_whole_ ? open_ : -1;
   const Eigen::Index from = band_.first - 2, size = band_.spectrumSize();  // element i is bin i + 1
   half.integrals.real() = real_.middleRows(from, size);
   half.integrals.imag() = imaginary_.middleRows(from, size);
@@ -165,7 +163,7 @@ void FourierIntegrals::finishUntil(long index) {
 
 const Eigen::ArrayXXcd* FourierIntegrals::half(long index) const {
   const Half& half = halves_[index % kHalves];
-  return half.index == index && half.is_complete ? &half.integrals : nullptr;
+  return half.index == index ? &half.integrals : nullptr;
 }
 
 }  // namespace suspension_health_monitor

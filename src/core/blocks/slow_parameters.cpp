@@ -16,7 +16,7 @@ bool isSlow(int i) { return i == kBlockDelay || i == kBlockGain || i >= kNumBloc
 // Of the prior. A strut that bounces far faster than a car's has shorter blocks, and a delay that is shorter by as
 // much.
 double BlockEstimator::delayStddev() const {
-  return std::min(1.0, equations_.band().length / BlockOptions().length) * options_.delay_stddev;
+  return std::min(1.0, equations_.band().length / kBlockTuning.length) * kBlockTuning.delay_stddev;
 }
 
 // A gain, and of a vehicle a delay, is let in only if it is more than links and laws with memory make, see
@@ -24,8 +24,8 @@ double BlockEstimator::delayStddev() const {
 void BlockEstimator::lookAtSensors() {
   const bool is_alone = equations_.columns().neighbours == 0;
   const double omega = equations_.band().omega(equations_.band().last);
-  if (!is_alone) first_.stddev[kBlockDelay] = options_.delay_stddev;
-  first_.stddev[kBlockGain] = options_.gain_stddev;
+  if (!is_alone) first_.stddev[kBlockDelay] = kBlockTuning.delay_stddev;
+  first_.stddev[kBlockGain] = kBlockTuning.gain_stddev;
   const bool is_known = fit(count_, first_, trial_);
   const double gain = trial_.theta[kBlockGain];
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -35,6 +36,20 @@ inline std::vector<BinRange> rangesOf(const std::vector<ResidualBin>& bins, cons
     ranges.back().add(bins[i]);
   }
   return ranges;
+}
+
+/// @return the edges of so many bins of one width.
+inline std::vector<double> evenEdges(double from, double to, std::size_t bins) {
+  std::vector<double> edges;
+  for (std::size_t i = 0; i <= bins; ++i)
+    edges.push_back(from + (to - from) * (static_cast<double>(i) / static_cast<double>(bins)));
+  return edges;
+}
+
+/// The bin of a value; the outermost take in what lies beyond.
+inline std::size_t binOf(const std::vector<double>& edges, double value) {
+  const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, value);
+  return static_cast<std::size_t>(above - edges.begin()) - 1;
 }
 
 /// The narrowest band that holds a share of a density, as [first, last).

@@ -14,13 +14,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-/// @return of the free run, per segment and sample.
-Residuals residualsOf(const std::vector<ComparedSegment>& segments) {
-  Residuals residuals;
-  for (const ComparedSegment& segment : segments) residuals.push_back(segment.residuals());
-  return residuals;
-}
-
 /// @param taps  of the filter that the drive has passed.
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
                      const std::vector<double>& taps, ComparedSegment& segment) {
@@ -77,7 +70,7 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
       segments.back().drive = r;
       segments.back().predicted = std::move(predicted);
     }
-  const double mean = meanOf(residualsOf(segments));
+  const double mean = meanOf(seriesOf(segments, &ComparedSegment::residuals));
   const Segments sources = segmentsOf(records);
   for (std::size_t i = 0; i < segments.size(); ++i)
     addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
@@ -86,14 +79,14 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
 
 namespace {
 
-std::optional<PredictionError> errorOf(const std::vector<double>& measured, const std::vector<double>& predicted) {
-  using Series = Eigen::Map<const Eigen::ArrayXd>;
-  if (measured.empty()) return std::nullopt;
-  const Eigen::Index count = measured.size();
-  const Series y(measured.data(), count);
-  const double error = (y - Series(predicted.data(), count)).square().sum(), spread = (y - y.mean()).square().sum();
+/// @return nothing if the measurement does not move, or there is none.
+std::optional<PredictionError> errorOf(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
+  if (measured.size() == 0) return std::nullopt;
+  const double error = (measured - predicted).squaredNorm();
+  const double spread = (measured.array() - measured.mean()).square().sum();
   if (!(spread > 0.0) || !std::isfinite(error)) return std::nullopt;
-  return PredictionError{std::sqrt(error / static_cast<double>(count)), 100.0 * (1.0 - std::sqrt(error / spread))};
+  const auto count = static_cast<double>(measured.size());
+  return PredictionError{std::sqrt(error / count), 100.0 * (1.0 - std::sqrt(error / spread))};
 }
 
 /// The measurement without the faults of its reading, to first order in them.
@@ -102,17 +95,6 @@ std::vector<double> trueReading(const ComparedSegment& segment, const StrutModel
   model.read(segment.body, segment.period, faulty);
   for (std::size_t k = 0; k < faulty.size(); ++k) faulty[k] = 2.0 * segment.measured[k] - faulty[k];
   return faulty;
-}
-
-/// Error of the free run over all segments.
-/// @return nothing if the measurement does not move.
-std::optional<PredictionError> freeRunError(const std::vector<ComparedSegment>& segments) {
-  std::vector<double> measured, predicted;
-  for (const ComparedSegment& segment : segments) {
-    measured.insert(measured.end(), segment.measured.begin(), segment.measured.end());
-    predicted.insert(predicted.end(), segment.predicted.begin(), segment.predicted.end());
-  }
-  return errorOf(measured, predicted);
 }
 
 /// Error of the regression rows with the model's numbers,
@@ -137,7 +119,7 @@ std::optional<PredictionError> oneStepError(const std::vector<ComparedSegment>& 
                           model.stiffness_to_mass * row->regressor[kStiffnessToMass] + added.output(2));
     }
   }
-  return errorOf(measured, predicted);
+  return errorOf(joined<double>({measured}), joined<double>({predicted}));
 }
 
 /// Fits the model, or keeps it.
@@ -155,7 +137,8 @@ std::optional<std::vector<StrutState>> settleModel(const Records& records, const
 /// The model as it does on what was held out: fitted on the rest, or as it is.
 std::optional<ModelFit> judgedFit(const Records& records, const HoldOut& held_out, const CompareOptions& options,
                                   const std::vector<StrutState>& initial, const Comparison& comparison) {
-  if (!options.fit) return ModelFit{comparison.model, initial, residualsOf(comparison.segments), {}, {}};
+  if (!options.fit)
+    return ModelFit{comparison.model, initial, seriesOf(comparison.segments, &ComparedSegment::residuals), {}, {}};
   return fitOutputError(records, held_out.training, comparison.model);
 }
 
@@ -196,7 +179,8 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   std::optional<ComparedDrives> compared = compareSegments(records, comparison.model, *initial);
   if (!compared) return Shortcoming::kNoStableFit;
   comparison.segments = std::move(compared->segments);
-  const std::optional<PredictionError> free_run = freeRunError(comparison.segments);
+  const auto free_run = errorOf(joined(seriesOf(comparison.segments, &ComparedSegment::measured)),
+                                joined(seriesOf(comparison.segments, &ComparedSegment::predicted)));
   if (!free_run) return Shortcoming::kTooShort;
   comparison.free_run = *free_run;
   report(0.4);
@@ -220,10 +204,11 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
   // What a law of travel and travel rate takes is no noise, whatever its spectrum.
-  comparison.noise_floor = by_law < kStructured
-                               ? floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
-                                                 residualsOf(comparison.segments), filter.period, comparison.model)
-                               : std::min(comparison.noise_floor, law_leaves);
+  comparison.noise_floor =
+      by_law < kStructured
+          ? floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
+                            seriesOf(comparison.segments, &ComparedSegment::residuals), filter.period, comparison.model)
+          : std::min(comparison.noise_floor, law_leaves);
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
   const LinearStrut strut = comparison.model.linearPart();

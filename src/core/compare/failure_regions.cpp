@@ -52,6 +52,15 @@ class FailureFinder {
     return numSamples() > range.count ? std::sqrt(std::max(0.0, elsewhere) / (numSamples() - range.count)) : 0.0;
   }
 
+  /// @return the two ranges that have most of something, the one with more first.
+  template <class Measure>
+  static std::vector<BinRange> strongest(std::vector<BinRange> ranges, const Measure& measure) {
+    std::sort(ranges.begin(), ranges.end(),
+              [&](const BinRange& a, const BinRange& b) { return measure(a) > measure(b); });
+    ranges.erase(ranges.begin() + std::min(ranges.size(), kCompareTuning.most_ranges), ranges.end());
+    return ranges;
+  }
+
   /// @return the two ranges of bins with a force of one sign that hold most of it, the stronger first. The second only
   /// if the model is not better in it than elsewhere.
   std::vector<BinRange> forces(const std::vector<ResidualBin>& bins) const {
@@ -61,11 +70,8 @@ class FailureFinder {
       const bool acts = bin.count >= kCompareTuning.fewest_samples && isForce(bin.mean, bin.standard_error, limit);
       signs.push_back(!acts ? 0 : bin.mean > 0.0 ? 1 : -1);
     }
-    std::vector<BinRange> ranges = rangesOf(bins, signs);
-    std::sort(ranges.begin(), ranges.end(), [](const BinRange& a, const BinRange& b) {
-      return a.count * square(a.mean()) > b.count * square(b.mean());
-    });
-    if (ranges.size() > kCompareTuning.most_ranges) ranges.resize(kCompareTuning.most_ranges);
+    std::vector<BinRange> ranges =
+        strongest(rangesOf(bins, signs), [](const BinRange& range) { return range.count * square(range.mean()); });
     // Where a fit makes up for a force elsewhere, the model is wrong, too, but this is not where it fails.
     if (ranges.size() == kCompareTuning.most_ranges && ranges.back().rms() < rmsElsewhere(ranges.back()))
       ranges.pop_back();
@@ -83,10 +89,7 @@ class FailureFinder {
       marks.push_back(bin.count >= kCompareTuning.fewest_samples && exceedsNoise(square(bin.rms), alone.count, limit) &&
                       bin.rms > contrast * rmsElsewhere(alone));
     }
-    std::vector<BinRange> ranges = rangesOf(bins, marks);
-    std::sort(ranges.begin(), ranges.end(), [](const BinRange& a, const BinRange& b) { return a.squares > b.squares; });
-    if (ranges.size() > kCompareTuning.most_ranges) ranges.resize(kCompareTuning.most_ranges);
-    return ranges;
+    return strongest(rangesOf(bins, marks), [](const BinRange& range) { return range.squares; });
   }
 
   double numSamples() const { return static_cast<double>(views_.num_samples); }
@@ -179,7 +182,7 @@ class FailureFinder {
     const Eigen::ArrayXXd counts = surface.count.cast<double>().array();
     const Eigen::ArrayXXd sums = counts * surface.mean.array();
     double largest = 0.0;
-    Eigen::Index row = 0, column = 0;
+    FailureRegion region;
     for (Eigen::Index i = 0; i < sums.rows(); ++i)
       for (Eigen::Index j = 0; j < sums.cols(); ++j) {
         if (surface.count(i, j) < static_cast<int>(kCompareTuning.fewest_samples)) continue;
@@ -192,17 +195,16 @@ class FailureFinder {
             isForce(beyond, error, limit) && isForce(mean, error, limit) && beyond * mean > kMajority * square(mean);
         if (!named || counts(i, j) * square(beyond) <= largest) continue;
         largest = counts(i, j) * square(beyond);
-        row = i;
-        column = j;
+        region.view = FailureView::kSurface;
+        region.rmse = surface.rms(i, j);
+        region.mean = mean;
+        region.share = counts(i, j) / numSamples();
+        region.from = surface.travel_edges[i];
+        region.to = surface.travel_edges[i + 1];
+        region.rate_from = surface.rate_edges[j];
+        region.rate_to = surface.rate_edges[j + 1];
       }
-    if (largest == 0.0) return;
-    FailureRegion& region = add(FailureView::kSurface, surface.rms(row, column));
-    region.mean = surface.mean(row, column);
-    region.share = counts(row, column) / numSamples();
-    region.from = surface.travel_edges[row];
-    region.to = surface.travel_edges[row + 1];
-    region.rate_from = surface.rate_edges[column];
-    region.rate_to = surface.rate_edges[column + 1];
+    if (largest > 0.0) found_.push_back(region);
   }
 
   void findDirection() {

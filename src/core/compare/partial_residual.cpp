@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bin_range.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/compare/tuning.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -48,22 +49,16 @@ std::vector<ForceVariable> variablesOf(const ActiveEffect& active, const std::ve
 
 /// Even edges over nearly all values.
 std::vector<double> edgesOver(const std::vector<Sample>& samples, ForceVariable variable, std::size_t bins) {
-  std::vector<double> values;
-  values.reserve(samples.size());
-  for (const Sample& sample : samples) values.push_back(valueOf(sample, variable));
+  Eigen::VectorXd values(samples.size());
+  for (std::size_t k = 0; k < samples.size(); ++k) values[k] = valueOf(samples[k], variable);
   const auto [from, to] = coveredRange(std::move(values));
-  std::vector<double> edges;
-  for (std::size_t i = 0; i <= bins; ++i)
-    edges.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(bins));
-  return edges;
+  return evenEdges(from, to, bins);
 }
 
 /// Index of the range that holds the value, or the number of ranges if none does.
 std::size_t rangeOf(const std::vector<double>& edges, double value) {
-  const std::size_t ranges = edges.size() - 1;
-  if (!(value >= edges.front() && value <= edges.back())) return ranges;
-  const auto above = std::upper_bound(edges.begin(), edges.end(), value);
-  return std::min(ranges - 1, static_cast<std::size_t>(above - edges.begin()) - 1);
+  const bool is_inside = value >= edges.front() && value <= edges.back();
+  return is_inside ? binOf(edges, value) : edges.size() - 1;
 }
 
 /// @param bin  whose deviation is the sum of squares until finish().

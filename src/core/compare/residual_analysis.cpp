@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bin_range.h"
 #include "residual_correlation.h"
 #include "residual_series.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
@@ -28,26 +29,16 @@ struct BinSums {
     residual_square += square(r);
   }
 
-  double standardError(double memory) const {
-    if (count < 2.0) return 0.0;
-    const double mean = missing / count;
-    return std::sqrt(std::max(0.0, missing_square / count - square(mean)) * memory / (count - 1.0));
-  }
-
   void fill(double memory, ResidualBin& bin) const {
     bin.count = static_cast<std::size_t>(count);
     if (count == 0.0) return;
     bin.mean = missing / count;
     bin.rms = std::sqrt(residual_square / count);
-    bin.standard_error = standardError(memory);
+    if (count < 2.0) return;
+    const double variance = std::max(0.0, missing_square / count - square(bin.mean));
+    bin.standard_error = std::sqrt(variance * memory / (count - 1.0));
   }
 };
-
-/// The bin of a value; the outermost take in what lies beyond.
-std::size_t binOf(const std::vector<double>& edges, double value) {
-  const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, value);
-  return static_cast<std::size_t>(above - edges.begin()) - 1;
-}
 
 std::vector<ResidualBin> makeBins(const std::vector<double>& edges, const std::vector<BinSums>& sums, double memory) {
   std::vector<ResidualBin> bins(sums.size());
@@ -60,51 +51,34 @@ std::vector<ResidualBin> makeBins(const std::vector<double>& edges, const std::v
 }
 
 /// @return the values below which the shares of all lie, each one of the values.
-std::vector<double> quantiles(std::vector<double> values, const std::vector<double>& shares) {
-  std::sort(values.begin(), values.end());
+std::vector<double> quantiles(Eigen::VectorXd values, const std::vector<double>& shares) {
+  std::sort(values.data(), values.data() + values.size());
   std::vector<double> edges;
   for (const double share : shares)
-    edges.push_back(values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))]);
+    edges.push_back(values[std::lround(share * static_cast<double>(values.size() - 1))]);
   return edges;
 }
 
 /// Even edges around 0 that cover nearly all values.
-std::vector<double> evenEdges(const std::vector<double>& values) {
+std::vector<double> edgesAround0(const Eigen::VectorXd& values) {
   const auto [from, to] = coveredRange(values);
   const double reach = std::max(std::abs(from), std::abs(to));
-  std::vector<double> edges;
-  for (int i = 0; i <= kCompareTuning.force_cells; ++i)
-    edges.push_back(reach * (2.0 * i / kCompareTuning.force_cells - 1.0));
-  return edges;
+  return evenEdges(-reach, reach, kCompareTuning.force_cells);
 }
 
-/// What one stretch of time says of the strut's numbers: normal equations of missing force on (v, d).
-class LocalFit {
- public:
-  void add(double rate, double travel, double missing) {
-    const Eigen::Vector2d row(rate, travel);
-    gram_ += row * row.transpose();
-    moment_ += missing * row;
-    square_ += square(missing);
-  }
-
-  void fill(double memory, TimeBin& bin) const {
-    const Eigen::LDLT<Eigen::Matrix2d> factors(gram_);
-    if (bin.count < kFewestForScatter || !(factors.rcond() > 1e-14)) return;
-    const Eigen::Vector2d solution = factors.solve(moment_);
-    const double variance = std::max(0.0, square_ - moment_.dot(solution)) / (static_cast<double>(bin.count) - 2.0);
-    const Eigen::Matrix2d covariance = variance * memory * factors.solve(Eigen::Matrix2d::Identity());
-    bin.damping_error = solution[0];
-    bin.stiffness_error = solution[1];
-    bin.damping_error_stddev = std::sqrt(std::max(0.0, covariance(0, 0)));
-    bin.stiffness_error_stddev = std::sqrt(std::max(0.0, covariance(1, 1)));
-  }
-
- private:
-  Eigen::Matrix2d gram_ = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d moment_ = Eigen::Vector2d::Zero();
-  double square_ = 0.0;
-};
+/// What one stretch of time says of the strut's numbers: least squares of missing force on (v, d).
+/// @param products  of (v, d, missing force) with each other, summed.
+void fillErrors(const Eigen::Matrix3d& products, double memory, TimeBin& bin) {
+  const Eigen::LDLT<Eigen::Matrix2d> factors(products.topLeftCorner<2, 2>());
+  if (bin.count < kFewestForScatter || !(factors.rcond() > 1e-14)) return;
+  const Eigen::Vector2d moment = products.topRightCorner<2, 1>(), solution = factors.solve(moment);
+  const double variance = std::max(0.0, products(2, 2) - moment.dot(solution)) / (static_cast<double>(bin.count) - 2.0);
+  const Eigen::Matrix2d covariance = variance * memory * factors.solve(Eigen::Matrix2d::Identity());
+  bin.damping_error = solution[0];
+  bin.stiffness_error = solution[1];
+  bin.damping_error_stddev = std::sqrt(std::max(0.0, covariance(0, 0)));
+  bin.stiffness_error_stddev = std::sqrt(std::max(0.0, covariance(1, 1)));
+}
 
 /// Calls take(first, last, from, to) for each drive: its segments, last being one past the end, and its time [s].
 template <class Take>
@@ -125,14 +99,15 @@ std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<C
   forEachDrive(segments, [&](std::size_t first, std::size_t last, double from, double to) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::floor((to - from) / width)));
     std::vector<BinSums> sums(count);
-    std::vector<LocalFit> fits(count);
+    std::vector<Eigen::Matrix3d> products(count, Eigen::Matrix3d::Zero());
     for (std::size_t s = first; s < last; ++s)
       for (std::size_t k = 0; k < segments[s].size(); ++k) {
         const double share = (segments[s].time(k) - from) / (to - from);
         const std::size_t i = std::min(count - 1, static_cast<std::size_t>(share * static_cast<double>(count)));
         const std::size_t n = series.begins[s] + k;
         sums[i].add(series.residual[n], series.residual[n]);
-        fits[i].add(series.rate[n], series.travel[n], series.missing[n]);
+        const Eigen::Vector3d row(series.rate[n], series.travel[n], series.missing[n]);
+        products[i] += row * row.transpose();
       }
     for (std::size_t i = 0; i < count; ++i) {
       TimeBin& bin = bins.emplace_back();
@@ -140,17 +115,17 @@ std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<C
       bin.from = from + (to - from) * static_cast<double>(i) / static_cast<double>(count);
       bin.to = from + (to - from) * static_cast<double>(i + 1) / static_cast<double>(count);
       sums[i].fill(series.residual_memory, bin);
-      fits[i].fill(series.missing_memory, bin);
+      fillErrors(products[i], series.missing_memory, bin);
     }
   });
   return bins;
 }
 
 /// @param x  one value per sample.
-std::vector<ResidualBin> binByQuantile(const ResidualSeries& series, const std::vector<double>& x) {
+std::vector<ResidualBin> binByQuantile(const ResidualSeries& series, const Eigen::VectorXd& x) {
   const std::vector<double> edges = quantiles(x, kShares);
   std::vector<BinSums> sums(edges.size() - 1);
-  for (std::size_t n = 0; n < x.size(); ++n) sums[binOf(edges, x[n])].add(series.missing[n], series.residual[n]);
+  for (std::size_t n = 0; n < series.size(); ++n) sums[binOf(edges, x[n])].add(series.missing[n], series.residual[n]);
   return makeBins(edges, sums, series.missing_memory);
 }
 
@@ -180,36 +155,36 @@ DirectionLoop compareDirections(const ResidualSeries& series) {
 }
 
 ForceSurface mapForce(const ResidualSeries& series) {
+  constexpr int cells = kCompareTuning.force_cells;  // either way
   ForceSurface surface;
-  surface.travel_edges = evenEdges(series.travel);
-  surface.rate_edges = evenEdges(series.rate);
-  std::vector<BinSums> sums(kCompareTuning.force_cells * kCompareTuning.force_cells);
+  surface.travel_edges = edgesAround0(series.travel);
+  surface.rate_edges = edgesAround0(series.rate);
+  std::vector<BinSums> sums(cells * cells);
   for (std::size_t n = 0; n < series.size(); ++n)
-    sums[binOf(surface.travel_edges, series.travel[n]) * kCompareTuning.force_cells +
-         binOf(surface.rate_edges, series.rate[n])]
-        .add(series.missing[n], series.residual[n]);
-  surface.mean = surface.standard_error = surface.rms =
-      Eigen::MatrixXd::Zero(kCompareTuning.force_cells, kCompareTuning.force_cells);
-  surface.count = Eigen::MatrixXi::Zero(kCompareTuning.force_cells, kCompareTuning.force_cells);
+    sums[binOf(surface.travel_edges, series.travel[n]) * cells + binOf(surface.rate_edges, series.rate[n])].add(
+        series.missing[n], series.residual[n]);
+  surface.mean = surface.standard_error = surface.rms = Eigen::MatrixXd::Zero(cells, cells);
+  surface.count = Eigen::MatrixXi::Zero(cells, cells);
   double explained = 0.0;
-  for (int i = 0; i < kCompareTuning.force_cells; ++i)
-    for (int j = 0; j < kCompareTuning.force_cells; ++j) {
-      const BinSums& cell = sums[i * kCompareTuning.force_cells + j];
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      ResidualBin cell;
+      sums[i * cells + j].fill(series.missing_memory, cell);
       surface.count(i, j) = static_cast<int>(cell.count);
-      if (cell.count < 2.0) continue;
-      surface.mean(i, j) = cell.missing / cell.count;
-      surface.rms(i, j) = std::sqrt(cell.residual_square / cell.count);
-      surface.standard_error(i, j) = cell.standardError(series.missing_memory);
-      explained += cell.count * (square(surface.mean(i, j)) - square(surface.standard_error(i, j)));
+      if (cell.count < 2) continue;
+      surface.mean(i, j) = cell.mean;
+      surface.rms(i, j) = cell.rms;
+      surface.standard_error(i, j) = cell.standard_error;
+      explained += static_cast<double>(cell.count) * (square(cell.mean) - square(cell.standard_error));
     }
-  const double whole = sumOfSquares(series.missing);
+  const double whole = series.missing.squaredNorm();
   if (whole > 0.0) surface.explained_share = std::clamp(explained / whole, 0.0, 1.0);
   return surface;
 }
 
 }  // namespace
 
-std::pair<double, double> coveredRange(std::vector<double> values) {
+std::pair<double, double> coveredRange(Eigen::VectorXd values) {
   const std::vector<double> ends =
       quantiles(std::move(values), {0.5 * (1.0 - kCompareTuning.covered), 0.5 * (1.0 + kCompareTuning.covered)});
   return {ends[0], ends[1]};
@@ -222,7 +197,7 @@ std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& se
   const auto count = static_cast<double>(series->size());
   ResidualViews views;
   views.offset = series->offset;
-  views.rms = std::sqrt(sumOfSquares(series->residual) / count);
+  views.rms = series->residual.norm() / std::sqrt(count);
   views.offset_standard_error = views.rms * std::sqrt(series->residual_memory / count);
   views.independent_share = 1.0 / series->residual_memory;
   views.num_samples = series->size();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,14 +10,13 @@
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/math/periodogram.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
 /// All segments one after the other, one entry per sample, the means of residual and missing force taken off.
 struct ResidualSeries {
-  std::vector<double> residual, missing, travel, rate, wheel;
-  std::vector<std::size_t> begins;                     ///< of the segments, and the end of the last one
+  Eigen::VectorXd residual, missing, travel, rate, wheel;
+  std::vector<std::size_t> begins{0};                  ///< of the segments, and the end of the last one
   double period = 0.0;                                 ///< T [s]
   double natural_period = 0.0;                         ///< of the strut, in samples
   double offset = 0.0;                                 ///< mean residual [m/s^2]
@@ -24,12 +24,6 @@ struct ResidualSeries {
 
   std::size_t size() const { return residual.size(); }
 };
-
-inline double sumOfSquares(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += square(value);
-  return sum;
-}
 
 /// @param segments  those of the series.
 /// @return nothing if not even two windows fit into the segments.

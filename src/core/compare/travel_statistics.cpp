@@ -21,12 +21,10 @@ TimeHistogram::Direction directionOf(const Eigen::VectorXd& values) {
 }
 
 TimeHistogram histogramOf(const Motion& motion, double StrutState::*which) {
-  std::vector<std::vector<double>> segments;
-  for (const std::vector<StrutState>& segment : motion) {
-    segments.emplace_back();
-    for (const StrutState& state : segment) segments.back().push_back(state.*which);
-  }
-  const Eigen::VectorXd values = joined(segments);
+  std::vector<double> all;
+  for (const std::vector<StrutState>& segment : motion)
+    for (const StrutState& state : segment) all.push_back(state.*which);
+  const Eigen::Map<const Eigen::VectorXd> values(all.data(), all.size());
   TimeHistogram histogram;
   if (!(values.squaredNorm() > 0.0)) return histogram;
   const double rms = values.norm() / std::sqrt(static_cast<double>(values.size()));
@@ -35,7 +33,7 @@ TimeHistogram histogramOf(const Motion& motion, double StrutState::*which) {
   const int first = std::min(0, binOf(values.minCoeff())), last = std::max(0, binOf(values.maxCoeff()) + 1);
   for (int i = first; i <= last; ++i) histogram.edges.push_back(i * width);
   histogram.shares.resize(last - first);
-  for (const double value : values) histogram.shares[binOf(value) - first] += 1.0 / static_cast<double>(values.size());
+  for (const double value : all) histogram.shares[binOf(value) - first] += 1.0 / static_cast<double>(values.size());
   histogram.compression = directionOf(values);
   histogram.rebound = directionOf(-values);
   return histogram;

@@ -55,12 +55,6 @@ std::array<double, 2> slopesOf(const StrutModel& model) {
   return {std::max(model.damping_to_mass, 0.2 * std::sqrt(model.stiffness_to_mass)), model.stiffness_to_mass};
 }
 
-/// How long the slowest free motion lasts [s].
-double settlingTime(const std::array<double, 2>& slopes) {
-  const double half = 0.5 * slopes[kDamper], discriminant = square(half) - slopes[kSpring];
-  return -std::log(kTransient) / (half - std::sqrt(std::max(discriminant, 0.0)));
-}
-
 /// The fit of both laws and of an offset between the sensors, by Gauss-Newton steps.
 class CurveFit {
  public:
@@ -73,7 +67,7 @@ class CurveFit {
         fit_(start),
         accuracy_(accuracyOfFreeRuns(records)) {
     const LinearResponse response(records, start);
-    rms_ = {response.travelRate(), response.travel()};
+    rms_ = {response.scale().travel_rate, response.scale().travel};
     std::array<double, 2> most{};
     for (const StrutMotion& motion : response.motion().samples)
       for (const std::size_t w : {kDamper, kSpring}) most[w] = std::max(most[w], std::abs(variableOf(motion, w)));
@@ -158,7 +152,8 @@ class CurveFit {
   // Not those that a wrong initial state or the filters' beginning is in.
   void countSamples(const std::vector<std::size_t>& ends) {
     const double period = records_.front()->period();
-    const auto skipped = std::max(kWhitening, static_cast<Eigen::Index>(settlingTime(slopes_) / period));
+    const double settling = -std::log(kTransient) / slowestDecay(slopes_[kDamper], slopes_[kSpring]);  // [s]
+    const auto skipped = std::max(kWhitening, static_cast<Eigen::Index>(settling / period));
     cluster_ = static_cast<Eigen::Index>(kPeriodsOfCluster * 2.0 * M_PI / std::sqrt(slopes_[kSpring]) / period);
     counts_.setOnes(ends.back());
     Eigen::Index begin = 0;

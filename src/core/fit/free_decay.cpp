@@ -13,58 +13,57 @@ constexpr double kDecayWindow = 1.5;  // [s]: more than a period of the slowest 
 constexpr int kDecayOverlap = 6;      // windows begin this many times in the length of one
 
 struct DecayWindow {
-  Eigen::Matrix2d information;
-  Eigen::Vector2d right;
-  double power, noise, motion;  // sum of squares; rms of what is left, and of z''
+  Eigen::Matrix3d products;  // of (int u, int int u, z'') with each other, summed
+  double noise, motion;      // rms of the residual of z'', and of z''
 };
 
-// Sums of a window without what its own three numbers explain.
-class DecayWindowSums {
- public:
-  DecayWindowSums(double period, Eigen::Index count) : period_(period), own_(count, 3) {
-    const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
-    own_ << Eigen::VectorXd::Ones(count), t, t.cwiseAbs2().array() - t.cwiseAbs2().mean();  // orthogonal
-    own_.colwise().normalize();
-  }
+/// b1 and b0 by least squares.
+Eigen::Vector2d solutionOf(const Eigen::Matrix3d& products) {
+  return products.topLeftCorner<2, 2>().ldlt().solve(products.topRightCorner<2, 1>());
+}
 
-  DecayWindow of(const std::vector<CornerSample>& samples, std::size_t first) const {
-    const Eigen::Index count = own_.rows();
-    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(count, 3);  // int u, int int u, z''
-    double last = 0.0;
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const CornerSample& sample = samples[first + i];
-      const double u = sample.unsprung_acceleration - sample.sprung_acceleration;
-      if (i > 0) {
-        columns(i, 0) = columns(i - 1, 0) + 0.5 * period_ * (last + u);
-        columns(i, 1) = columns(i - 1, 1) + 0.5 * period_ * (columns(i - 1, 0) + columns(i, 0));
-      }
-      columns(i, 2) = sample.sprung_acceleration;
-      last = u;
+/// The residual's sum of squares.
+double unexplained(const Eigen::Matrix3d& products) {
+  return std::max(0.0, products(2, 2) - products.topRightCorner<2, 1>().dot(solutionOf(products)));
+}
+
+/// What a window's own three numbers explain: orthonormal columns over its samples.
+Eigen::MatrixXd ownColumns(Eigen::Index count) {
+  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(count, -1.0, 1.0);
+  Eigen::MatrixXd own(count, 3);
+  own << Eigen::VectorXd::Ones(count), t, t.cwiseAbs2().array() - t.cwiseAbs2().mean();
+  own.colwise().normalize();
+  return own;
+}
+
+/// Sums of a window without what `own` explains.
+DecayWindow decayWindow(const CornerSample* samples, double period, const Eigen::MatrixXd& own) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(own.rows(), 3);  // int u, int int u, z''
+  double last = 0.0;
+  for (Eigen::Index i = 0; i < own.rows(); ++i) {
+    const double u = samples[i].unsprung_acceleration - samples[i].sprung_acceleration;
+    if (i > 0) {
+      columns(i, 0) = columns(i - 1, 0) + 0.5 * period * (last + u);
+      columns(i, 1) = columns(i - 1, 1) + 0.5 * period * (columns(i - 1, 0) + columns(i, 0));
     }
-    columns -= own_ * (own_.transpose() * columns);
-    const Eigen::Matrix3d sums = columns.transpose() * columns;
-    DecayWindow window{sums.topLeftCorner<2, 2>(), sums.topRightCorner<2, 1>(), sums(2, 2), 0.0, 0.0};
-    const auto n = static_cast<double>(count);
-    const double explained = window.right.dot(window.information.ldlt().solve(window.right));
-    window.noise = std::sqrt(std::max(0.0, window.power - explained) / n);
-    window.motion = std::sqrt(window.power / n);
-    return window;
+    columns(i, 2) = samples[i].sprung_acceleration;
+    last = u;
   }
-
- private:
-  double period_;
-  Eigen::MatrixXd own_;
-};
+  columns -= own * (own.transpose() * columns);
+  const Eigen::Matrix3d products = columns.transpose() * columns;
+  const auto n = static_cast<double>(own.rows());
+  return {products, std::sqrt(unexplained(products) / n), std::sqrt(products(2, 2) / n)};
+}
 
 std::vector<DecayWindow> decayWindowsOf(const std::vector<Drive>& drives, double period, std::size_t count) {
-  const DecayWindowSums sums(period, count);
+  const Eigen::MatrixXd own = ownColumns(count);
   std::vector<DecayWindow> windows;
   for (const Drive& drive : drives)
     for (std::size_t first = 0; first + count <= drive.samples.size();
          first += std::max<std::size_t>(1, count / kDecayOverlap)) {
       const double span = toSeconds(drive.samples[first + count - 1].stamp - drive.samples[first].stamp);
       if (span < (static_cast<double>(count) - 0.5) * period)
-        windows.push_back(sums.of(drive.samples, first));  // no gap
+        windows.push_back(decayWindow(&drive.samples[first], period, own));  // no gap
     }
   return windows;
 }
@@ -84,21 +83,18 @@ StrutEstimate estimateFromFreeDecays(const std::vector<Drive>& drives) {
   std::nth_element(noises.begin(), tenth, noises.end());
   // An rms of n values scatters by 1 / sqrt(2 n); the tenth is 1.3 of that below the mean.
   const double most = *tenth * (1.0 + (1.3 + kLikely) / std::sqrt(2.0 * static_cast<double>(count)));
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  double power = 0.0, values = 0.0;
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  double values = 0.0;
   for (const DecayWindow& window : windows) {
     if (window.noise > std::max(most, kWorthHaving * window.motion) || window.motion < kMuchMore * *tenth) continue;
-    information += window.information;
-    right += window.right;
-    power += window.power;
+    products += window.products;
     values += static_cast<double>(count);
   }
   if (values == 0.0) return estimate;
-  const Eigen::Vector2d theta = information.ldlt().solve(right);
+  const Eigen::Vector2d theta = solutionOf(products);
   // Windows that overlap share their noise: that many count as one.
-  const double variance = kDecayOverlap * std::max(0.0, power - right.dot(theta)) / values;
-  const Eigen::Matrix2d covariance = variance * information.inverse();
+  const double variance = kDecayOverlap * unexplained(products) / values;
+  const Eigen::Matrix2d covariance = variance * products.topLeftCorner<2, 2>().inverse();
   estimate.damping_to_mass = theta[0];
   estimate.stiffness_to_mass = theta[1];
   estimate.damping_to_mass_stddev = std::sqrt(covariance(0, 0));

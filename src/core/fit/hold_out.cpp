@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -67,27 +68,21 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
   return result;
 }
 
-template <class Loss>
-std::vector<double> HoldOut::sumByStretch(const Residuals& residuals, const Loss& loss) const {
-  std::vector<double> sums;
-  for (const Stretch& stretch : stretches_) {
-    double sum = 0.0;
-    for (std::size_t k = stretch.first; k < stretch.last; ++k) sum += loss(residuals[stretch.segment][k]);
-    sums.push_back(sum);
-  }
-  return sums;
-}
-
 std::vector<double> HoldOut::stretchErrors(const Residuals& residuals) const {
-  return sumByStretch(residuals, [](double r) { return square(r); });
+  return stretchLosses(residuals, std::numeric_limits<double>::infinity());
 }
 
 std::vector<double> HoldOut::stretchLosses(const Residuals& residuals, double outlier) const {
-  return sumByStretch(residuals, [outlier](double r) {
-    const double q = r / outlier;
-    return 2.0 * square(r) /
-           (std::sqrt(1.0 + square(q)) + 1.0);  // without the cancellation of the formula as it is written
-  });
+  std::vector<double> losses;
+  for (const Stretch& stretch : stretches_) {
+    double& loss = losses.emplace_back(0.0);
+    for (std::size_t k = stretch.first; k < stretch.last; ++k) {
+      const double r = residuals[stretch.segment][k];
+      // without the cancellation of the formula as it is written
+      loss += 2.0 * square(r) / (std::sqrt(1.0 + square(r / outlier)) + 1.0);
+    }
+  }
+  return losses;
 }
 
 double HoldOut::independentSquares(const Residuals& residuals) const {

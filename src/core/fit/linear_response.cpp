@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "parameterization.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
 
@@ -10,16 +11,19 @@ namespace {
 
 constexpr double kMotionStep = 1e-4;  // of the rms motion, for the slopes of the force
 
-double rms(const std::vector<StrutMotion>& motion, double StrutMotion::*member) {
-  double sum = 0.0;
-  for (const StrutMotion& m : motion) sum += square(m.*member);
-  return std::sqrt(sum / static_cast<double>(motion.size()));
-}
-
 }  // namespace
 
-LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
-    : fit_(&fit), period_(records.front()->period()) {
+MotionScale scaleOf(const SegmentedMotion& motion, double stiffness_to_mass) {
+  double travel = 0.0, travel_rate = 0.0;
+  for (const StrutMotion& m : motion.samples) {
+    travel += square(m.travel);
+    travel_rate += square(m.travel_rate);
+  }
+  const auto count = static_cast<double>(motion.samples.size());
+  return {std::sqrt(travel / count), std::sqrt(travel_rate / count), 1.0 / std::sqrt(stiffness_to_mass)};
+}
+
+LinearResponse::LinearResponse(const Records& records, const ModelFit& fit) : period_(records.front()->period()) {
   StrutModel force = fit.model;
   force.reading.clear();
   std::vector<std::array<Memory, kMostEffects>> memory;
@@ -38,10 +42,10 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
     if (!segments_.empty()) motion_.rests.push_back(restBetween(*segments_.back(), *segment));
     segments_.push_back(segment);
   }
-  measureSizes();
-  travel_ = rms(motion_.samples, &StrutMotion::travel);
-  travel_rate_ = rms(motion_.samples, &StrutMotion::travel_rate);
-  const double by_travel = kMotionStep * travel_, by_rate = kMotionStep * travel_rate_;
+  const double y = std::sqrt(meanSquare({predicted_}));
+  sizes_ = {kMotionStep * y, y, period_, bodySizes(segments_)};
+  scale_ = scaleOf(motion_, fit.model.stiffness_to_mass);
+  const double by_travel = kMotionStep * scale_.travel, by_rate = kMotionStep * scale_.travel_rate;
   for (std::size_t k = 0; k < memory.size(); ++k) {
     const StrutMotion& m = motion_.samples[k];
     const auto at = [&](double d, double v) {
@@ -49,21 +53,6 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit)
     };
     slope_travel_.push_back((at(by_travel, 0.0) - at(-by_travel, 0.0)) / (2.0 * by_travel));
     slope_rate_.push_back((at(0.0, by_rate) - at(0.0, -by_rate)) / (2.0 * by_rate));
-  }
-}
-
-void LinearResponse::measureSizes() {
-  const auto count = static_cast<double>(predicted_.size());
-  double squares = 0.0;
-  for (const double y : predicted_) squares += square(y);
-  sizes_.y = std::sqrt(squares / count);
-  sizes_.residual = kMotionStep * sizes_.y;
-  sizes_.period = period_;
-  for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
-    double sum = 0.0;
-    for (const DriveSegment* segment : segments_)
-      for (const double value : segment->body[c]) sum += square(value);
-    sizes_.body[c] = std::sqrt(sum / count);
   }
 }
 

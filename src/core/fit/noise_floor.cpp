@@ -95,12 +95,8 @@ class FreeFormLaws {
     for (const DriveSegment* segment : segments_) {
       std::vector<StrutState>& states = motion_.emplace_back();
       if (!runFree(model, *segment, {}, residual, &states)) return false;
-      double mean = 0.0;
-      for (std::size_t k = 0; k < residual.size(); ++k) {
-        residual[k] = segment->sprung[k] - residual[k];
-        mean += residual[k] / static_cast<double>(residual.size());
-      }
-      const MotionError error = motionError(residual, mean, segment->period, model.stiffness_to_mass);
+      for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = segment->sprung[k] - residual[k];
+      const MotionError error = motionError(residual, meanOf({residual}), segment->period, model.stiffness_to_mass);
       for (std::size_t k = 0; k < residual.size(); ++k) {
         travel_ += square(states[k].travel -= error.travel[k]);
         travel_rate_ += square(states[k].travel_rate -= error.travel_rate[k]);

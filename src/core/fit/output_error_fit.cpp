@@ -17,8 +17,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-using LocalStates = std::vector<std::array<double, 2>>;  // travel and travel rate that segments begin with, scaled
-
 /// @return nothing if an effect never acts in these drives, or a fault of the measurement cannot show in them.
 std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes) {
   std::vector<double> scales;
@@ -38,52 +36,92 @@ std::optional<std::vector<double>> coefficientScales(const StrutModel& start, co
   return scales;
 }
 
-/// Standard deviations of the model's numbers (in SI), the initial states of the segments being unknown, too.
-std::vector<double> standardDeviations(const ceres::Problem& problem, const Parameterization& parameters,
-                                       const double* model) {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters.size(), parameters.size());
-  double square = 0.0, count = 0.0;
-  std::vector<ceres::ResidualBlockId> blocks;
-  problem.GetResidualBlocks(&blocks);
-  for (const ceres::ResidualBlockId block : blocks) {
-    std::vector<double*> x;
-    problem.GetParameterBlocksForResidualBlock(block, &x);
-    const ceres::CostFunction* cost = problem.GetCostFunctionForResidualBlock(block);
-    Eigen::VectorXd residuals(cost->num_residuals());
-    RowMajor shared(cost->num_residuals(), parameters.size()), local(cost->num_residuals(), 2);
-    double* jacobians[2] = {shared.data(), local.data()};
-    if (!cost->Evaluate(x.data(), residuals.data(), jacobians)) continue;
-    const Eigen::MatrixXd cross = local.transpose() * shared;
-    information += shared.transpose() * shared - cross.transpose() * solveSymmetric(local.transpose() * local, cross);
-    square += residuals.squaredNorm();
-    count += static_cast<double>(residuals.size());
+/// The model's numbers and the state that every segment begins with, as the solver finds them together.
+class OutputErrorProblem {
+ public:
+  /// @param states  a first guess.  @param outlier  where a residual begins to count as one [m/s^2].
+  /// The arguments must outlive this object.
+  OutputErrorProblem(const Segments& segments, const std::vector<SampleMask>& masks, const Parameterization& parameters,
+                     double outlier, const std::vector<StrutState>& states)
+      : parameters_(parameters),
+        states_(states),
+        memories_(segments, states),
+        model_(parameters.initial()),
+        initial_(segments.size()) {
+    const auto inUnits = [](double value, double unit) { return value == 0.0 ? 0.0 : value / unit; };  // which may be 0
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      initial_[s] = {inUnits(states[s].travel, parameters.motion().travel),
+                     inUnits(states[s].travel_rate, parameters.motion().travel_rate)};
+      problem_.AddResidualBlock(new SegmentCost(segments, s, maskOf(masks, s), parameters, outlier, memories_), nullptr,
+                                model_.data(), initial_[s].data());
+    }
   }
-  const Eigen::MatrixXd covariance =
-      square / count * solveSymmetric(information, Eigen::MatrixXd::Identity(parameters.size(), parameters.size()));
-  const Eigen::VectorXd deviations =
-      covariance.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseProduct(parameters.slopes(model).cwiseAbs());
-  return {deviations.data(), deviations.data() + deviations.size()};
-}
 
-/// Fits the model `x` and the initial states in place.
-/// @param holds_model  it stays as it is.
-/// @return false if the solver fails.
-bool solve(ceres::Problem& problem, bool holds_model, Eigen::VectorXd& x, LocalStates& initial) {
-  auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
-  ceres::Solver::Options solver;
-  solver.linear_solver_ordering.reset(ordering);
-  for (auto& of_segment : initial) ordering->AddElementToGroup(of_segment.data(), 0);
-  ordering->AddElementToGroup(x.data(), 1);
-  if (holds_model) problem.SetParameterBlockConstant(x.data());
-  solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.max_num_iterations = 25;
-  solver.function_tolerance = 1e-7;
-  solver.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  return summary.IsSolutionUsable();
-}
+  /// @param holds_model  it stays as it is.
+  /// @return false if the solver fails.
+  bool solve(bool holds_model) {
+    auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
+    ceres::Solver::Options solver;
+    solver.linear_solver_ordering.reset(ordering);
+    for (auto& of_segment : initial_) ordering->AddElementToGroup(of_segment.data(), 0);
+    ordering->AddElementToGroup(model_.data(), 1);
+    if (holds_model) problem_.SetParameterBlockConstant(model_.data());
+    solver.linear_solver_type = ceres::DENSE_SCHUR;
+    solver.max_num_iterations = 25;
+    solver.function_tolerance = 1e-7;
+    solver.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem_, &summary);
+    return summary.IsSolutionUsable();
+  }
+
+  StrutModel model() const { return parameters_.model(model_.data()); }
+
+  std::vector<StrutState> initial() const {
+    std::vector<StrutState> states = states_;
+    for (std::size_t s = 0; s < states.size(); ++s) {
+      states[s].travel = initial_[s][0] * parameters_.motion().travel;
+      states[s].travel_rate = initial_[s][1] * parameters_.motion().travel_rate;
+    }
+    return states;
+  }
+
+  /// Of the model's numbers (in SI), the initial states being unknown, too.
+  std::vector<double> standardDeviations() const {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters_.size(), parameters_.size());
+    double squares = 0.0, count = 0.0;
+    std::vector<ceres::ResidualBlockId> blocks;
+    problem_.GetResidualBlocks(&blocks);
+    for (const ceres::ResidualBlockId block : blocks) {
+      std::vector<double*> x;
+      problem_.GetParameterBlocksForResidualBlock(block, &x);
+      const ceres::CostFunction* cost = problem_.GetCostFunctionForResidualBlock(block);
+      Eigen::VectorXd residuals(cost->num_residuals());
+      RowMajor shared(cost->num_residuals(), parameters_.size()), local(cost->num_residuals(), 2);
+      double* jacobians[2] = {shared.data(), local.data()};
+      if (!cost->Evaluate(x.data(), residuals.data(), jacobians)) continue;
+      const Eigen::MatrixXd cross = local.transpose() * shared;
+      information += shared.transpose() * shared - cross.transpose() * solveSymmetric(local.transpose() * local, cross);
+      squares += residuals.squaredNorm();
+      count += static_cast<double>(residuals.size());
+    }
+    const Eigen::MatrixXd covariance =
+        squares / count *
+        solveSymmetric(information, Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+    const Eigen::VectorXd deviations =
+        covariance.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseProduct(parameters_.slopes(model_.data()).cwiseAbs());
+    return {deviations.data(), deviations.data() + deviations.size()};
+  }
+
+ private:
+  const Parameterization& parameters_;
+  const std::vector<StrutState>& states_;
+  CarriedMemories memories_;
+  Eigen::VectorXd model_;                       // the numbers of the parameterization
+  std::vector<std::array<double, 2>> initial_;  // travel and travel rate, in units of the motion
+  ceres::Problem problem_;
+};
 
 /// A first guess of coefficients by linear thinking may make the model run away: they are halved until it does not.
 /// @return false if that does not help.
@@ -119,10 +157,20 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
              std::vector<StrutState>* motion) {
   double largest = 0.0;
   for (const double y : segment.sprung) largest = std::max(largest, std::abs(y));
-  const std::size_t lead = segment.lead();
-  const RecordedWheel wheel{segment.wheel, segment.timeDriven(0) - static_cast<double>(lead) * segment.period,
-                            segment.period, segment.steps, segment.size() + 2 * lead};
-  if (!FreeRun::follow(model, wheel, state, kRunaway * largest, predicted, motion)) return false;
+  const std::size_t lead = segment.lead(), count = segment.size() + 2 * lead;
+  const double start = segment.timeDriven(0) - static_cast<double>(lead) * segment.period;
+  const double step = segment.period / segment.steps;
+  predicted.resize(count);
+  if (motion != nullptr) motion->resize(count);
+  auto wheel = segment.wheel.begin();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double time = start + static_cast<double>(k) * segment.period;
+    predicted[k] = model.force(state.travel, state.travel_rate, time, state.memory.data());
+    if (!(std::abs(predicted[k]) <= kRunaway * largest)) return false;  // NaN, too
+    if (motion != nullptr) (*motion)[k] = state;
+    if (k + 1 == count) break;
+    for (int s = 0; s < segment.steps; ++s) integrateStrut(model, time + s * step, step, *wheel++, state);
+  }
   passLow(segment.taps, predicted);
   cutEnds(lead, predicted);
   if (motion != nullptr) cutEnds(lead, *motion);
@@ -153,58 +201,30 @@ FitOutcome fitOutputError(const Records& records, const std::vector<SampleMask>&
   if (!sizes) return FitFailure::kRunsAway;
   const auto coefficient_scales = coefficientScales(start, *sizes);
   if (!coefficient_scales) return FitFailure::kNeverActs;
-  const MotionScale& scale = sizes->motion;
-  const Parameterization parameters(start, *coefficient_scales, scale);
+  const Parameterization parameters(start, *coefficient_scales, sizes->motion);
   const double outlier = std::max(kOutlierScale * sizes->reading.residual, 1e-9 * sizes->reading.y);
-  Eigen::VectorXd x = parameters.initial();
-  LocalStates initial(segments.size(), {0.0, 0.0});
-  for (std::size_t s = 0; s < guessed_states.size(); ++s)
-    initial[s] = {states[s].travel / scale.travel, states[s].travel_rate / scale.travel_rate};
   for (StrutState& state : states) state.memory = {};
-  CarriedMemories memories(segments, states);
-  ceres::Problem problem;
-  for (std::size_t s = 0; s < segments.size(); ++s)
-    problem.AddResidualBlock(
-        new SegmentCost(segments, s, maskOf(masks, s), parameters, start, scale, outlier, memories), nullptr, x.data(),
-        initial[s].data());
-  if (!solve(problem, false, x, initial)) return FitFailure::kNotSolved;
+  OutputErrorProblem problem(segments, masks, parameters, outlier, states);
+  if (!problem.solve(false)) return FitFailure::kNotSolved;
 
-  ModelFit fit;
-  fit.model = start;
-  fit.stddev = standardDeviations(problem, parameters, x.data());
-  fit.motion = scale;
-  parameters.apply(x.data(), fit.model);
+  ModelFit fit{problem.model(), {}, {}, problem.standardDeviations(), sizes->motion};
   if (!(fit.model.stiffness_to_mass > 0.0)) return FitFailure::kNoSpring;
   if (!canFollow(fit.model, records.front()->period())) return FitFailure::kTooFast;
-  for (std::size_t s = 0; s < segments.size(); ++s)
-    states[s] = {initial[s][0] * scale.travel, initial[s][1] * scale.travel_rate, {}};
-  if (!addResiduals(segments, states, fit)) return FitFailure::kRunsAway;
+  if (!addResiduals(segments, problem.initial(), fit)) return FitFailure::kRunsAway;
   return fit;
 }
 
 std::optional<std::vector<StrutState>> estimateInitialStates(const Records& records, const StrutModel& model) {
   const FitOutcome at_rest = withoutFit(records, model);
   if (!at_rest) return std::nullopt;
-  const Segments segments = segmentsOf(records);
   const double size = std::sqrt(meanSquare(at_rest->residuals)), rate = std::sqrt(model.stiffness_to_mass);
   if (size == 0.0) return at_rest->initial;
-  const MotionScale scale{size / model.stiffness_to_mass, size / rate, 1.0 / rate};
-  const Parameterization parameters(model, std::vector<double>(numbersOf(model).size(), 1.0), scale);
-  CarriedMemories memories(segments, at_rest->initial);
-  Eigen::VectorXd x = parameters.initial();
-  LocalStates initial(segments.size(), {0.0, 0.0});
-  ceres::Problem problem;
-  for (std::size_t s = 0; s < segments.size(); ++s)
-    problem.AddResidualBlock(
-        new SegmentCost(segments, s, nullptr, parameters, model, scale, kOutlierScale * size, memories), nullptr,
-        x.data(), initial[s].data());
-  if (!solve(problem, true, x, initial)) return std::nullopt;
-  std::vector<StrutState> states = at_rest->initial;
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    states[s].travel = initial[s][0] * scale.travel;
-    states[s].travel_rate = initial[s][1] * scale.travel_rate;
-  }
-  return states;
+  const Parameterization parameters(model, std::vector<double>(numbersOf(model).size(), 1.0),
+                                    {size / model.stiffness_to_mass, size / rate, 1.0 / rate});
+  const Segments segments = segmentsOf(records);
+  OutputErrorProblem problem(segments, {}, parameters, kOutlierScale * size, at_rest->initial);
+  if (!problem.solve(true)) return std::nullopt;
+  return problem.initial();
 }
 
 double meanOf(const Residuals& residuals) {

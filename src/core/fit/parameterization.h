@@ -26,6 +26,20 @@ struct DriveSizes {
   ReadingSizes reading;  ///< of what is fitted only, the residual robust; of the body 0 where a channel is not known
 };
 
+/// @return rms of what else the body's IMU measured, by channel; 0 where it is not known.
+inline std::array<double, kNumBodyChannels> bodySizes(const Segments& segments) {
+  std::array<double, kNumBodyChannels> sizes{};
+  for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
+    double count = 0.0;
+    for (const DriveSegment* segment : segments) {
+      for (const double value : segment->body[c]) sizes[c] += square(value);
+      count += static_cast<double>(segment->size());
+    }
+    sizes[c] = std::sqrt(sizes[c] / count);
+  }
+  return sizes;
+}
+
 /// Sums squares over one segment.
 inline void addSegment(const StrutModel& start, const DriveSegment& segment, const std::vector<StrutState>& motion,
                        DriveSizes& sums) {
@@ -39,8 +53,6 @@ inline void addSegment(const StrutModel& start, const DriveSegment& segment, con
       sums.forces[j] += square(effect.force(here, shapes.data()));
     }
   }
-  for (std::size_t c = 0; c < kNumBodyChannels; ++c)
-    for (const double value : segment.body[c]) sums.reading.body[c] += square(value);
 }
 
 /// @return nothing if the model runs away or there is nothing to fit.
@@ -69,10 +81,8 @@ inline std::optional<DriveSizes> measureSizes(const Segments& segments, const st
   sizes.motion = {std::sqrt(sizes.motion.travel / count), std::sqrt(sizes.motion.travel_rate / count),
                   1.0 / std::sqrt(start.stiffness_to_mass)};
   for (double& sum : sizes.forces) sum = std::sqrt(sum / count);
-  for (double& sum : sizes.reading.body) sum = std::sqrt(sum / count);
-  sizes.reading.y = std::sqrt(sizes.reading.y / static_cast<double>(fitted.size()));
-  sizes.reading.residual = robustDeviation(std::move(fitted));
-  sizes.reading.period = segments.front()->period;
+  const double y = std::sqrt(sizes.reading.y / static_cast<double>(fitted.size()));
+  sizes.reading = {robustDeviation(std::move(fitted)), y, segments.front()->period, bodySizes(segments)};
   return sizes;
 }
 
@@ -89,7 +99,8 @@ class Parameterization {
  public:
   /// @param coefficient_scales  of the effects, then of the reading's [unit of the coefficient].
   /// @param motion  what the shapes' ranges are counted in; ranges are widened to hold the start.
-  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales, const MotionScale& motion) {
+  Parameterization(const StrutModel& start, const std::vector<double>& coefficient_scales, const MotionScale& motion)
+      : start_(start), motion_(motion) {
     numbers_ = {{start.damping_to_mass}, {start.stiffness_to_mass}};
     std::vector<double> x{1.0, 1.0};
     auto scale = coefficient_scales.begin();
@@ -119,10 +130,13 @@ class Parameterization {
   /// @return the start as a vector.
   const Eigen::VectorXd& initial() const { return initial_; }
 
-  /// @param model  its numbers are replaced; it has the effects of the start.
-  void apply(const double* x, StrutModel& model) const {
+  const MotionScale& motion() const { return motion_; }
+
+  StrutModel model(const double* x) const {
+    StrutModel model = start_;
     auto number = numbers_.begin();
     for (double* value : valuesOf(model)) *value = number++->value(*x++);
+    return model;
   }
 
   /// @return d(SI value)/dx at x.
@@ -142,6 +156,8 @@ class Parameterization {
     double slope(double x) const { return isShape() ? value(x) * width * logistic(x) * (1.0 - logistic(x)) : scale; }
   };
 
+  StrutModel start_;
+  MotionScale motion_;
   std::vector<Number> numbers_;
   Eigen::VectorXd initial_;
 };

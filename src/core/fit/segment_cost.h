@@ -17,17 +17,11 @@ namespace suspension_health_monitor {
 class SegmentCost : public ceres::CostFunction {
  public:
   /// @param index  of the segment.  @param mask  none: all samples.
-  /// @param scale  what the initial state is counted in.
+  /// @param parameters  its motion is what the initial state is counted in.
   /// @param outlier  where a residual begins to count as one [m/s^2].
   SegmentCost(const Segments& segments, std::size_t index, const SampleMask* mask, const Parameterization& parameters,
-              const StrutModel& model, const MotionScale& scale, double outlier, CarriedMemories& memories)
-      : segment_(*segments[index]),
-        index_(index),
-        parameters_(parameters),
-        model_(model),
-        scale_(scale),
-        outlier_(outlier),
-        memories_(memories) {
+              double outlier, CarriedMemories& memories)
+      : segment_(*segments[index]), index_(index), parameters_(parameters), outlier_(outlier), memories_(memories) {
     for (std::size_t k = 0; k < segment_.size(); ++k)
       if (mask == nullptr || (*mask)[k] != 0) used_.push_back(k);
     set_num_residuals(static_cast<int>(used_.size()));
@@ -49,11 +43,9 @@ class SegmentCost : public ceres::CostFunction {
 
  private:
   bool evaluate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& residuals) const {
-    StrutModel model = model_;
-    parameters_.apply(shared.data(), model);
-    StrutState state{0.0, 0.0, memories_.at(index_, model)};
-    state.travel = local[0] * scale_.travel;
-    state.travel_rate = local[1] * scale_.travel_rate;
+    StrutModel model = parameters_.model(shared.data());
+    const MotionScale& unit = parameters_.motion();
+    const StrutState state{local[0] * unit.travel, local[1] * unit.travel_rate, memories_.at(index_, model)};
     std::vector<double> predicted;
     if (!runFree(model, segment_, state, predicted)) return false;
     for (std::size_t i = 0; i < used_.size(); ++i) residuals[i] = segment_.sprung[used_[i]] - predicted[used_[i]];
@@ -81,22 +73,13 @@ class SegmentCost : public ceres::CostFunction {
   }
 
   // Smooth Huber loss as a change of the residual: half its square is a^2 (sqrt(1 + (r/a)^2) - 1).
-  double damp(double r) const {
-    const double q = r / outlier_;
-    return std::copysign(outlier_ * std::sqrt(2.0 * q * q / (std::sqrt(1.0 + q * q) + 1.0)), r);
-  }
-
-  double dampSlope(double r) const {
-    const double q = r / outlier_;
-    const double damped = damp(r);
-    return damped == 0.0 ? 1.0 : r / (std::sqrt(1.0 + q * q) * damped);
-  }
+  double damp(double r) const { return r * std::sqrt(2.0 / (1.0 + spread(r))); }
+  double dampSlope(double r) const { return std::sqrt((1.0 + spread(r)) / 2.0) / spread(r); }
+  double spread(double r) const { return std::sqrt(1.0 + square(r / outlier_)); }
 
   const DriveSegment& segment_;
   std::size_t index_;
   const Parameterization& parameters_;
-  const StrutModel& model_;
-  MotionScale scale_;
   double outlier_;
   CarriedMemories& memories_;
   std::vector<std::size_t> used_;

@@ -51,9 +51,9 @@ HealthLevel levelOf(const PartChange& change, HealthLevel before, const HealthOp
 }
 
 /// @return the change beyond what the others have, too.
-PartChange beyond(const LogChange& others, PartChange change) {
+PartChange beyond(const Measured& others, PartChange change) {
   const double stddev = std::hypot(change.stddev, others.stddev);
-  change.size = std::expm1(std::log1p(change.size) - others.size);
+  change.size = std::expm1(std::log1p(change.size) - others.value);
   change.significance = std::fmin(change.significance, logSize(change.size) / stddev);
   change.stddev = stddev;
   return change;
@@ -69,10 +69,7 @@ void HealthOptions::validate() const {
 }
 
 HealthAssessment::HealthAssessment(const HealthOptions& options)
-    : options_(options),
-      confirmation_(fromSeconds(options.confirm_time)),
-      damping_{{}, {kLeastChange, kWindowsBetweenFalseAlarms}},
-      stiffness_(damping_) {
+    : options_(options), damping_{{}, {kLeastChange, kWindowsBetweenFalseAlarms}}, stiffness_(damping_) {
   options.validate();
   baseline_ = nominalOf(options);
   if (baseline_.isEmpty() && options.learn_time > 0.0) learner_.emplace(options.learn_time);
@@ -81,7 +78,6 @@ HealthAssessment::HealthAssessment(const HealthOptions& options)
 void HealthAssessment::setOptions(const HealthOptions& options) {
   options.validate();
   options_ = options;
-  confirmation_.setConfirmTime(fromSeconds(options.confirm_time));
 }
 
 void HealthAssessment::setBaseline(const Baseline& baseline) {
@@ -121,10 +117,12 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   const bool is_decisive =
       std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
                judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) > kDecisive * kCertain;
-  if (judges || !is_judgement || is_decisive || stamp < report_stamp_) level_ = confirmation_.update(stamp, now.level);
+  HealthLevel level = report_.level;
+  if (judges || !is_judgement || is_decisive || stamp < report_stamp_)
+    level = confirmation_.update(stamp, now.level, fromSeconds(options_.confirm_time));
   report_stamp_ = stamp;
-  if (estimate.tellsChanges() || level_ == HealthLevel::kStale) report_ = now;  // else the last judgement stands
-  report_.level = level_;
+  if (estimate.tellsChanges() || level == HealthLevel::kStale) report_ = now;  // else the last judgement stands
+  report_.level = level;
   return report_;
 }
 
@@ -134,16 +132,16 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   taken_ = stamp;
   if (learner_ && seconds > 0.0 && sensor_.fault == SensorFault::kNone)
     if (const std::optional<Baseline> learned = learner_->add(stamp, estimate, seconds)) setBaseline(*learned);
-  ChangeFromBaseline changed = changeFrom(baseline_, estimate);
-  const auto carryOn = [&](Parameter& parameter, std::optional<LogChange>& change) {
+  MeasuredChange measured = changeFrom(baseline_, estimate);
+  const auto carryOn = [&](Parameter& parameter, std::optional<Measured>& change) {
     if (change) change = parameter.trend.carryOn(*change, estimate.age, toSeconds(stamp), estimate.window, kCertain);
   };
-  carryOn(damping_, changed.change.damping);
-  carryOn(stiffness_, changed.change.stiffness);
-  const StrutChange change = splitChange(changed.change, options_.payload_range, known_load_);
-  judged_ = HealthReport();
+  carryOn(damping_, measured.damping);
+  carryOn(stiffness_, measured.stiffness);
+  const StrutChange change = splitChange(measured, options_.payload_range, known_load_);
+  judged_ = reportOf(change);
   judge(change);
-  judged_.friction_doubt = judged_.uncertain && changed.is_mostly_friction;
+  judged_.friction_doubt = judged_.uncertain && measured.is_mostly_friction;
   noteLoad(change);
   since_early_ += seconds;
   updateEarlyWarning(change, estimate.window);
@@ -152,7 +150,7 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
 // The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.
 void HealthAssessment::noteLoad(const StrutChange& change) {
   if (!change.load_alone) return;
-  const double apart = std::abs(change.measured.damping->size - change.measured.stiffness->size);
+  const double apart = std::abs(change.measured.damping->value - change.measured.stiffness->value);
   if (apart + kLikely * change.apartStddev() < std::min(options_.damping_warn, options_.stiffness_warn) / 2.0)
     known_load_ = std::log1p(*change.payload);
 }
@@ -174,11 +172,8 @@ void HealthAssessment::judge(const StrutChange& change) {
   HealthReport& now = judged_;
   const bool is_first = !damping_change_;
   damping_change_.reset();
-  now.damping_change = change.damping;
-  now.stiffness_change = change.stiffness;
-  now.payload_change = change.payload;
   now.load_doubt = doubtOfLoad(change);
-  const auto part = [&](double size, double stddev, const LogChange& measured, double warn, double error) {
+  const auto part = [&](double size, double stddev, const Measured& measured, double warn, double error) {
     PartChange its{size, stddev, logSize(size) / stddev, measured.stddev, warn, error};
     if (change.load_alone) {  // NaN: not known
       its.significance = std::fmin(its.significance, change.load_alone->distance);
@@ -189,15 +184,14 @@ void HealthAssessment::judge(const StrutChange& change) {
   if (change.damping) {
     const PartChange damping = part(*change.damping, change.damping_stddev, *change.measured.damping,
                                     options_.damping_warn, options_.damping_error);
-    now.damping_stddev = damping.stddev;
     now.damping_significance = damping.significance;
     const HealthLevel before = damping_.level;
     damping_.level = levelOf(damping, before, options_);
-    damping_change_ = LogChange{std::log1p(*change.damping), change.damping_stddev};
+    damping_change_ = Measured{std::log1p(*change.damping), change.damping_stddev};
     if (others_ && damping_.level < HealthLevel::kError) {
       const HealthLevel own = levelOf(beyond(*others_, damping), before, options_);
       if (own == HealthLevel::kOk && damping_.level == HealthLevel::kWarn)
-        now.shared_damping_change = std::expm1(nearestToNone(std::minmax(damping_change_->size, others_->size)));
+        now.shared_damping_change = std::expm1(nearestToNone(std::minmax(damping_change_->value, others_->value)));
       if (own != HealthLevel::kStale) damping_.level = std::min(own, HealthLevel::kWarn);
     }
     if (is_first && awaits_others_ && damping_.level == HealthLevel::kWarn) damping_.level = before;
@@ -205,7 +199,6 @@ void HealthAssessment::judge(const StrutChange& change) {
   if (change.stiffness) {
     const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured.stiffness,
                                       options_.stiffness_warn, options_.stiffness_error);
-    now.stiffness_stddev = stiffness.stddev;
     now.stiffness_significance = stiffness.significance;
     stiffness_.level = levelOf(stiffness, stiffness_.level, options_);
   }
@@ -221,7 +214,7 @@ void HealthAssessment::updateEarlyWarning(const StrutChange& change, double wind
   if (since_early_ < window) return;
   since_early_ = 0.0;
   if (change.damping)
-    damping_.early.add(std::expm1(damping_change_->size - (others_ ? others_->size : 0.0)), change.damping_stddev);
+    damping_.early.add(std::expm1(damping_change_->value - (others_ ? others_->value : 0.0)), change.damping_stddev);
   if (change.stiffness) stiffness_.early.add(*change.stiffness, change.stiffness_stddev);
 }
 

@@ -5,21 +5,25 @@
 namespace suspension_health_monitor {
 namespace {
 
-struct ValueAndVariance {
-  double value, variance;
-};
-
 // b1 as it acts where friction has the gain m, without what is uncertain of friction's law.
-ValueAndVariance dampingAt(double m, double b1, double stddev, const DryFriction& friction) {
-  const double variance = std::max(0.0, square(stddev) - square(friction.lawStddev()));
-  return {b1 + friction.force * m,
-          std::max(0.0, variance + 2.0 * m * friction.damping_covariance + square(m * friction.stddev))};
+Measured dampingAt(double m, const Measured& b1, const DryFriction& friction) {
+  const double variance = std::max(0.0, square(b1.stddev) - square(friction.lawStddev()));
+  return {b1.value + friction.force * m,
+          std::sqrt(std::max(0.0, variance + 2.0 * m * friction.damping_covariance + square(m * friction.stddev)))};
 }
 
-std::optional<LogChange> logChange(const ValueAndVariance& now, const ValueAndVariance& healthy) {
+std::optional<Measured> logChange(const Measured& now, const Measured& healthy) {
   if (!(now.value > 0.0 && healthy.value > 0.0)) return std::nullopt;
-  return LogChange{std::log(now.value / healthy.value),
-                   std::sqrt(now.variance / square(now.value) + healthy.variance / square(healthy.value))};
+  return Measured{std::log(now.value / healthy.value),
+                  std::hypot(now.stddev / now.value, healthy.stddev / healthy.value)};
+}
+
+// Of two, `share` of the second.
+DryFriction meanOf(const DryFriction& a, const DryFriction& b, double share) {
+  const auto mean = [share](double of_a, double of_b) { return of_a + share * (of_b - of_a); };
+  return {mean(a.force, b.force), std::sqrt(mean(square(a.stddev), square(b.stddev))),
+          mean(a.damping_gain, b.damping_gain), mean(a.damping_covariance, b.damping_covariance),
+          mean(a.stiffness_gain, b.stiffness_gain)};
 }
 
 }  // namespace
@@ -47,42 +51,41 @@ Baseline nominalOf(const HealthThresholds& options) {
   return nominal;
 }
 
-ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now) {
-  ChangeFromBaseline result;
+MeasuredChange changeFrom(const Baseline& healthy, const StrutEstimate& now) {
+  MeasuredChange change;
   // The model's error is the same at all times, but nominal values know nothing of it.
-  const double damping_stddev =
-      std::hypot(healthy.learned ? now.damping_to_mass_stddev : now.dampingAbsoluteStddev(), healthy.damping_scatter);
-  const double stiffness_stddev = std::hypot(
-      healthy.learned ? now.stiffness_to_mass_stddev : now.stiffnessAbsoluteStddev(), healthy.stiffness_scatter);
-  MeasuredChange& change = result.change;
+  const Measured b1{
+      now.damping_to_mass,
+      std::hypot(healthy.learned ? now.damping_to_mass_stddev : now.dampingAbsoluteStddev(), healthy.damping_scatter)};
+  const Measured b0{now.stiffness_to_mass,
+                    std::hypot(healthy.learned ? now.stiffness_to_mass_stddev : now.stiffnessAbsoluteStddev(),
+                               healthy.stiffness_scatter)};
   if (healthy.stiffness_to_mass)
-    change.stiffness = logChange({now.stiffness_to_mass, square(stiffness_stddev)},
-                                 {*healthy.stiffness_to_mass, square(healthy.stiffness_to_mass_stddev)});
-  if (!healthy.damping_to_mass) return result;
-  ValueAndVariance damper{now.damping_to_mass, square(damping_stddev)};
-  ValueAndVariance healthy_damper{*healthy.damping_to_mass, square(healthy.damping_to_mass_stddev)};
-  double by_law = 0.0;
+    change.stiffness = logChange(b0, {*healthy.stiffness_to_mass, healthy.stiffness_to_mass_stddev});
+  if (!healthy.damping_to_mass) return change;
+  Measured damper = b1, healthy_damper{*healthy.damping_to_mass, healthy.damping_to_mass_stddev};
+  double by_law = 0.0;  // standard deviation
   if (healthy.friction && now.friction) {
     const DryFriction &present = *now.friction, &learned = *healthy.friction;
     const double between = (present.damping_gain + learned.damping_gain) / 2.0;
-    damper = dampingAt(between, now.damping_to_mass, damping_stddev, present);
-    healthy_damper = dampingAt(between, *healthy.damping_to_mass, healthy.damping_to_mass_stddev, learned);
-    by_law = square((present.force - learned.force) * (present.damping_gain - learned.damping_gain) / 2.0);
-    damper.variance += by_law;
+    damper = dampingAt(between, b1, present);
+    healthy_damper = dampingAt(between, healthy_damper, learned);
+    by_law = (present.force - learned.force) * (present.damping_gain - learned.damping_gain) / 2.0;
+    damper.stddev = std::hypot(damper.stddev, by_law);
   }
   change.damping = logChange(damper, healthy_damper);
   if (change.damping && healthy.temperature && now.temperature) {
     const double warmer = *now.temperature - healthy.temperature->celsius;
-    change.damping->size -= healthy.temperature->per_kelvin * warmer;
+    change.damping->value -= healthy.temperature->per_kelvin * warmer;
     change.damping->stddev = std::hypot(change.damping->stddev, healthy.temperature->per_kelvin_stddev * warmer);
   }
-  result.is_mostly_friction = by_law > 0.5 * damper.variance;
+  change.is_mostly_friction = square(by_law) > 0.5 * square(damper.stddev);
   // The error of b1 that it shares with b0; what friction adds it does not share.
   if (change.damping && change.stiffness && change.damping->stddev > 0.0 && change.stiffness->stddev > 0.0)
-    change.correlation = now.correlation * damping_stddev / damper.value * stiffness_stddev / now.stiffness_to_mass /
+    change.correlation = now.correlation * b1.stddev / damper.value * b0.stddev / b0.value /
                          (change.damping->stddev * change.stiffness->stddev);
   change.correlation = std::clamp(change.correlation, -0.99, 0.99);
-  return result;
+  return change;
 }
 
 void BaselineLearner::Parameter::add(double value, double its_stddev, double gain) {
@@ -119,12 +122,8 @@ void BaselineLearner::Half::add(const StrutEstimate& estimate, double new_second
   mix(window, estimate.window);
   if (!estimate.temperature) celsius.reset();
   if (celsius) mix(*celsius, *estimate.temperature);
-  if (!estimate.friction || !friction) return friction.reset();
-  mix(friction->force, estimate.friction->force);
-  mix(friction->damping_gain, estimate.friction->damping_gain);
-  mix(friction->damping_covariance, estimate.friction->damping_covariance);
-  friction->stddev =
-      std::sqrt(square(friction->stddev) + gain * (square(estimate.friction->stddev) - square(friction->stddev)));
+  if (!estimate.friction) friction.reset();
+  if (friction) friction = meanOf(*friction, *estimate.friction, gain);
 }
 
 std::optional<Baseline> BaselineLearner::add(Stamp stamp, const StrutEstimate& estimate, double seconds) {
@@ -180,9 +179,8 @@ std::optional<DamperTemperature> BaselineLearner::temperature() const {
 
 Baseline BaselineLearner::result(Stamp to) const {
   const auto& [a, b] = halves_;
-  const auto middle = [](double first, double second) { return (first + second) / 2.0; };
   // Overlapping windows share readings; what friction's law leaves unknown no time removes.
-  const double windows = std::max(1.0, seconds_ / middle(a.window, b.window));
+  const double windows = std::max(1.0, 2.0 * seconds_ / (a.window + b.window));
   const double share = 1.0 / std::sqrt(windows);
   Baseline baseline;
   baseline.temperature = temperature();
@@ -195,12 +193,11 @@ Baseline BaselineLearner::result(Stamp to) const {
   baseline.stiffness_scatter = stiffness.scatter(windows);
   baseline.damping_to_mass_stddev = share * damping.spread();
   baseline.stiffness_to_mass_stddev = share * stiffness.spread();
-  if (a.friction && b.friction)
-    baseline.friction =
-        DryFriction{middle(a.friction->force, b.friction->force),
-                    share * std::sqrt(middle(square(a.friction->stddev), square(b.friction->stddev))),
-                    middle(a.friction->damping_gain, b.friction->damping_gain),
-                    square(share) * middle(a.friction->damping_covariance, b.friction->damping_covariance)};
+  if (a.friction && b.friction) {
+    baseline.friction = meanOf(*a.friction, *b.friction, 0.5);
+    baseline.friction->stddev *= share;
+    baseline.friction->damping_covariance *= square(share);
+  }
   baseline.learned = true;
   baseline.from = from_;
   baseline.to = to;

@@ -31,11 +31,11 @@ std::optional<Changes> changesOf(const std::array<CornerState, kNumCorners>& cor
   Changes changes;
   for (const std::size_t corner : valid) {
     const auto& [estimate, healthy] = corners[corner];
-    const MeasuredChange change = changeFrom(from_healthy ? healthy : one, estimate).change;
+    const MeasuredChange change = changeFrom(from_healthy ? healthy : one, estimate);
     if (!change.damping || !change.stiffness) return std::nullopt;
-    const LogChange &damping = *change.damping, &stiffness = *change.stiffness;
+    const Measured &damping = *change.damping, &stiffness = *change.stiffness;
     const double of_damping = square(damping.stddev), of_stiffness = square(stiffness.stddev);
-    changes[corner] = {{damping.size, stiffness.size, damping.size - stiffness.size},
+    changes[corner] = {{damping.value, stiffness.value, damping.value - stiffness.value},
                        {of_damping, of_stiffness, of_damping + of_stiffness}};
   }
   return changes;

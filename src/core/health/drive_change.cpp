@@ -22,9 +22,9 @@ std::vector<double> nodesOf(const ForceCurve& now, const ForceCurve& other, doub
 
 }  // namespace
 
-CurveChange changeOf(const ForceCurve& now, const ForceCurve& other, const LogChange& mass) {
+CurveChange changeOf(const ForceCurve& now, const ForceCurve& other, const Measured& mass) {
   CurveChange change;
-  const double heavier = std::exp(mass.size);
+  const double heavier = std::exp(mass.value);
   const std::vector<double> sides[] = {nodesOf(now, other, 1.0), nodesOf(now, other, -1.0)};
   const double limit = limitFor(std::fmax(1.0, static_cast<double>(sides[0].size() + sides[1].size())));
   for (const std::vector<double>& nodes : sides) {
@@ -52,8 +52,8 @@ CurveChange changeOf(const ForceCurve& now, const ForceCurve& other, const LogCh
 
 DriveChange changeOf(const StrutEstimate& now, const StrutCurves& curves, const StrutEstimate& other,
                      const StrutCurves& other_curves, double payload_range) {
-  const StrutChange strut = splitChange(changeFrom(baselineOf(other, {}), now).change, payload_range, 0.0);
-  LogChange mass{0.0, 0.0};
+  const StrutChange strut = splitChange(changeFrom(baselineOf(other, {}), now), payload_range, 0.0);
+  Measured mass{0.0, 0.0};
   if (const double payload = strut.payload.value_or(0.0); payload != 0.0) {
     // The load's part of the standard deviation of what is left without it.
     const double variance = square(strut.stiffness_stddev) - square(strut.measured.stiffness->stddev);

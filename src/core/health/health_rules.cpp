@@ -4,8 +4,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/math/statistics.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -14,10 +12,10 @@ using LoadRange = std::pair<double, double>;
 LoadRange logRange(double range) { return {range < 1.0 ? std::log1p(-range) : -std::log1p(range), std::log1p(range)}; }
 
 // What both have in common, as far as that is significant against the known load.
-LogChange commonLoad(const LogChange& damping, const LogChange& stiffness, const LoadRange& range, double known) {
-  const auto [less, more] = std::minmax({-damping.size, -stiffness.size});
+Measured commonLoad(const Measured& damping, const Measured& stiffness, const LoadRange& range, double known) {
+  const auto [less, more] = std::minmax({-damping.value, -stiffness.value});
   const double common = std::clamp(known, less, more);
-  const double stddev = common == -damping.size ? damping.stddev : stiffness.stddev;
+  const double stddev = common == -damping.value ? damping.stddev : stiffness.stddev;
   const double noise = stddev > 0.0 ? 2.0 * stddev : 0.0;
   if (std::abs(common - known) <= noise) return {known, 0.0};
   const double shrunk = known + (common - known) * (1.0 - std::pow(noise / (common - known), 2));
@@ -42,7 +40,7 @@ LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
   Eigen::Matrix2d covariance;
   covariance << d * d, joint, joint, s * s;
   const Eigen::Matrix2d information = covariance.inverse();
-  const Eigen::Vector2d measured(both.damping->size, both.stiffness->size), load_moves(-1.0, -1.0);
+  const Eigen::Vector2d measured(both.damping->value, both.stiffness->value), load_moves(-1.0, -1.0);
   const Eigen::Vector2d weights = information * load_moves;
   LoadAlone load;
   load.log_mass = std::clamp(weights.dot(measured) / weights.dot(load_moves), range.first, range.second);
@@ -52,26 +50,36 @@ LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
 }
 
 StrutChange splitChange(const MeasuredChange& measured, double payload_range, double known_load) {
-  const auto& [damping, stiffness, correlation] = measured;
+  const std::optional<Measured>&damping = measured.damping, &stiffness = measured.stiffness;
   StrutChange change{};
   change.measured = measured;
-  LogChange load{0.0, 0.0};  // of the mass
+  Measured load{0.0, 0.0};  // of the mass
   if (damping && stiffness) {
     if (payload_range > 0.0) {
       const LoadRange range = logRange(payload_range);
       load = commonLoad(*damping, *stiffness, range, known_load);
       change.load_alone = explainByLoad(measured, range);
     }
-    change.payload = std::expm1(load.size);
+    change.payload = std::expm1(load.value);
   }
-  if (damping) change.damping = std::expm1(damping->size + load.size);
-  if (stiffness) change.stiffness = std::expm1(stiffness->size + load.size);
+  if (damping) change.damping = std::expm1(damping->value + load.value);
+  if (stiffness) change.stiffness = std::expm1(stiffness->value + load.value);
   change.damping_stddev = damping ? std::hypot(damping->stddev, load.stddev) : NAN;
   change.stiffness_stddev = stiffness ? std::hypot(stiffness->stddev, load.stddev) : NAN;
   return change;
 }
 
-HealthLevel LevelConfirmation::update(Stamp stamp, HealthLevel now) {
+HealthReport reportOf(const StrutChange& change) {
+  HealthReport report;
+  report.damping_change = change.damping;
+  report.stiffness_change = change.stiffness;
+  report.payload_change = change.payload;
+  report.damping_stddev = change.damping_stddev;
+  report.stiffness_stddev = change.stiffness_stddev;
+  return report;
+}
+
+HealthLevel LevelConfirmation::update(Stamp stamp, HealthLevel now, Stamp confirm_time) {
   if (now == confirmed_ && pending_ == confirmed_ && stamp >= pending_since_) return confirmed_;  // as nearly always
   if (stamp < pending_since_ || !confirmEachOther(confirmed_, now, pending_)) {
     pending_ = now;
@@ -79,7 +87,7 @@ HealthLevel LevelConfirmation::update(Stamp stamp, HealthLevel now) {
   } else {
     pending_ = now > confirmed_ ? std::min(now, pending_) : std::max(now, pending_);
   }
-  if (now == confirmed_ || stamp - pending_since_ >= confirm_time_) confirmed_ = pending_;
+  if (now == confirmed_ || stamp - pending_since_ >= confirm_time) confirmed_ = pending_;
   return confirmed_;
 }
 
@@ -100,12 +108,12 @@ void EarlyWarning::Sum::add(double step, double threshold) {
   if (value == 0.0) on = false;
 }
 
-LogChange ChangeTrend::carryOn(const LogChange& change, double age, double now, double window, double certain) {
+Measured ChangeTrend::carryOn(const Measured& change, double age, double now, double window, double certain) {
   if (now < last_) restart();
   const double spacing = points_.empty() ? window : now - last_;
   last_ = now;
   const double new_share = std::min(1.0, spacing / window);
-  points_.push_back({now - age, change.size, new_share / (change.stddev * change.stddev)});
+  points_.push_back({now - age, change.value, new_share / (change.stddev * change.stddev)});
   double weight = 0.0, time = 0.0, size = 0.0;
   for (const Point& point : points_) {
     weight += point.weight;
@@ -121,7 +129,7 @@ LogChange ChangeTrend::carryOn(const LogChange& change, double age, double now, 
   }
   if (!(product * product > certain * certain * information)) return change;
   const double slope = product / information;
-  return {change.size + std::clamp(slope * age, -kLeastChange, kLeastChange),
+  return {change.value + std::clamp(slope * age, -kLeastChange, kLeastChange),
           std::hypot(change.stddev, age / std::sqrt(information))};
 }
 

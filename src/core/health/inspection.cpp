@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/health/inspection.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
@@ -33,9 +32,6 @@ struct Uncertain {
     return {std::max(0.0, value - reach), value + reach};
   }
 };
-
-// The interval of a number: as many standard deviations either way, from so many times the data.
-using Interval = std::function<ValueRange(double sigmas, double longer)>;
 
 Uncertain dampingOf(const StrutEstimate& its) {
   return {its.damping_to_mass, its.damping_to_mass_stddev, its.damping_model_stddev};
@@ -149,52 +145,54 @@ class Inspector {
     numbers_.push_back(std::move(number));
   }
 
-  // Sets the value, and what is weaker.
-  Interval intervalOf(InspectedNumber& number) const {
-    const InspectedStrut& strut = struts_[number.struts.front()];
-    if (isImbalance(number)) return imbalance(number);
-    if (number.quantity == InspectedQuantity::kAdhesion) {
-      const Uncertain b1 = dampingOf(strut.estimate), b0 = stiffnessOf(strut.estimate);
-      const Interval interval = [=, wheel = *strut.wheel](double sigmas, double longer) {
-        return adhesionRange(b1.range(sigmas, longer), b0.range(sigmas, longer), wheel);
-      };
-      const ValueRange typical = interval(0.0, 1.0);
-      number.value = (typical.low + typical.high) / 2.0;
-      return interval;
-    }
-    const Uncertain ratio = dampingRatioOf(strut.estimate);
-    number.value = ratio.value;
-    return [ratio](double sigmas, double longer) { return ratio.range(sigmas, longer); };
+  // What an imbalance compares, of one strut.
+  Uncertain partOf(const InspectedNumber& number, std::size_t strut) const {
+    const StrutEstimate& its = struts_[strut].estimate;
+    return number.quantity == InspectedQuantity::kDampingImbalance ? dampingOf(its) : stiffnessOf(its);
   }
 
   // The model is the same on both sides: most of its error is in both struts alike and leaves their ratio as it is.
-  Interval imbalance(InspectedNumber& number) const {
-    const auto of = [&](std::size_t i) {
-      const StrutEstimate& its = struts_[i].estimate;
-      return number.quantity == InspectedQuantity::kDampingImbalance ? dampingOf(its) : stiffnessOf(its);
-    };
-    const std::size_t left = number.struts[0], right = number.struts[1];
-    number.weaker = of(left).value < of(right).value ? left : right;
-    const Uncertain weaker = of(*number.weaker), stronger = of(*number.weaker == left ? right : left);
+  Uncertain imbalance(const InspectedNumber& number) const {
+    const std::size_t left = number.struts.front(), right = number.struts.back();
+    const Uncertain weaker = partOf(number, *number.weaker);
+    const Uncertain stronger = partOf(number, *number.weaker == left ? right : left);
     const double ratio = weaker.value / stronger.value;
     const auto both = [&](double Uncertain::*error) {
       return std::hypot(weaker.*error, ratio * stronger.*error) / stronger.value;
     };
-    const Uncertain imbalance{1.0 - ratio, both(&Uncertain::stddev), kOwnShare * both(&Uncertain::model_stddev)};
-    number.value = imbalance.value;
-    return [imbalance](double sigmas, double longer) { return imbalance.range(sigmas, longer); };
+    return {1.0 - ratio, both(&Uncertain::stddev), kOwnShare * both(&Uncertain::model_stddev)};
+  }
+
+  // Of any number but an adhesion.
+  Uncertain uncertain(const InspectedNumber& number) const {
+    return isImbalance(number) ? imbalance(number) : dampingRatioOf(struts_[number.struts.front()].estimate);
+  }
+
+  // As many standard deviations either way, from so many times the data.
+  ValueRange intervalOf(const InspectedNumber& number, double sigmas, double longer) const {
+    if (number.quantity != InspectedQuantity::kAdhesion) return uncertain(number).range(sigmas, longer);
+    const InspectedStrut& strut = struts_[number.struts.front()];
+    return adhesionRange(dampingOf(strut.estimate).range(sigmas, longer),
+                         stiffnessOf(strut.estimate).range(sigmas, longer), *strut.wheel);
   }
 
   void judge(InspectedNumber& number) const {
-    const Interval interval = intervalOf(number);
-    number.interval = interval(kTwoSided95, 1.0);
-    number.verdict = verdictOn(number, interval, 1.0);
+    const std::size_t left = number.struts.front(), right = number.struts.back();
+    if (isImbalance(number)) number.weaker = partOf(number, left).value < partOf(number, right).value ? left : right;
+    if (number.quantity == InspectedQuantity::kAdhesion) {
+      const ValueRange typical = intervalOf(number, 0.0, 1.0);
+      number.value = (typical.low + typical.high) / 2.0;
+    } else {
+      number.value = uncertain(number).value;
+    }
+    number.interval = intervalOf(number, kTwoSided95, 1.0);
+    number.verdict = verdictOn(number, 1.0);
     for (double longer = 2.0; longer <= kMostLonger && !number.longer; longer *= 2.0)
-      if (verdictOn(number, interval, longer) != InspectionVerdict::kCannotTell) number.longer = longer;
+      if (verdictOn(number, longer) != InspectionVerdict::kCannotTell) number.longer = longer;
   }
 
-  InspectionVerdict verdictOn(const InspectedNumber& number, const Interval& interval, double longer) const {
-    const ValueRange likely = interval(kTwoSided95, longer), certain = interval(certain_, longer);
+  InspectionVerdict verdictOn(const InspectedNumber& number, double longer) const {
+    const ValueRange likely = intervalOf(number, kTwoSided95, longer), certain = intervalOf(number, certain_, longer);
     const bool most = isImbalance(number);
     if (most ? likely.high <= number.limit : likely.low >= number.limit) return InspectionVerdict::kPasses;
     if (most ? certain.low > number.limit : certain.high < number.limit) return InspectionVerdict::kFails;

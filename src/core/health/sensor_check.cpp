@@ -68,15 +68,13 @@ SensorFault SensorCheck::find(const StrutEstimate& estimate, const StrutEstimate
   if (unsprung_still) return SensorFault::kUnsprungStuck;
   if (samples_ < memory_) return SensorFault::kNone;
   if (isInG()) return SensorFault::kInG;
-  if (estimate.tellsChanges()) return judgeGains(estimate);
+  if (estimate.tellsChanges()) {
+    const bool differ = estimate.explained > kBlockTuning.nearly_all &&
+                        std::abs(estimate.gain) > kLeastDifference + kProven * estimate.gain_stddev;
+    return differ ? SensorFault::kGainsDiffer : SensorFault::kNone;
+  }
   if (estimate.doubt == EstimateDoubt::kVehicleFile) return SensorFault::kNone;  // that is the reason, for all struts
   return la_tells ? judgeMotion(la) : SensorFault::kNone;
-}
-
-SensorFault SensorCheck::judgeGains(const StrutEstimate& estimate) {
-  const bool differ = estimate.explained > kBlockTuning.nearly_all &&
-                      std::abs(estimate.gain) > kLeastDifference + kProven * estimate.gain_stddev;
-  return differ ? SensorFault::kGainsDiffer : SensorFault::kNone;
 }
 
 SensorFault SensorCheck::judgeMotion(const StrutEstimate& la) const {

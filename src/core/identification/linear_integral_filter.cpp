@@ -77,17 +77,14 @@ void HorizonIntegral::reset() {
 }
 
 LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative)
-    : order_(order),
-      horizon_(options.horizon_samples),
-      lateness_(HorizonIntegral::lateness(options.rule)),
-      window_(window(order, options)),
-      missing_(window_) {
+    : order_(order), horizon_(options.horizon_samples), lateness_(HorizonIntegral::lateness(options.rule)) {
   if (order < 1) refuse("filter order n", order, "", "at least 1");
   requireIn("derivative r", lowest_derivative, "", 0.0, order);
   const HorizonIntegral integral(options.horizon_samples, options.period, options.rule);
   const int num_integrals = order - lowest_derivative;
   integrals_.assign(num_integrals, integral);
-  for (int i = 0; i <= num_integrals; ++i) {
+  lines_.emplace_back(window(order, options));  // as long as the window: it is full when the filter is
+  for (int i = 1; i <= num_integrals; ++i) {
     const int for_differences = (order - i) * (horizon_ + lateness_) + 1;
     lines_.emplace_back(i < num_integrals ? std::max(for_differences, integral.requiredHistory()) : for_differences);
   }
@@ -96,7 +93,6 @@ LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOption
 void LinearIntegralFilter::push(double sample) {
   lines_.front().push(sample);
   for (std::size_t i = 0; i < integrals_.size(); ++i) lines_[i + 1].push(integrals_[i].update(lines_[i]));
-  if (!full()) --missing_;
 }
 
 double LinearIntegralFilter::output(int derivative) const {
@@ -116,7 +112,6 @@ double LinearIntegralFilter::output(int derivative) const {
 }
 
 void LinearIntegralFilter::reset() {
-  missing_ = window_;
   for (HorizonIntegral& integral : integrals_) integral.reset();
   for (DelayLine& line : lines_) line.reset();
 }

@@ -18,11 +18,11 @@ UdCovariance::UdCovariance(int size)
 
 // The kept rows W of U make P = W D W', which has to become triangular again: modified weighted Gram-Schmidt, Bierman,
 // ch. VI.4.
-UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources)
-    : UdCovariance(static_cast<int>(sources.size())) {
+UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<ColumnOrigin>& columns)
+    : UdCovariance(static_cast<int>(columns.size())) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size(), before.size());
   for (int i = 0; i < size(); ++i)
-    if (const std::optional<int>& source = sources[i]) {
+    if (const std::optional<int>& source = columns[i].before) {
       rows.row(i) = before.upper_.row(*source);
       ceiling_[i] = before.ceiling_[*source];
     }
@@ -80,7 +80,7 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
   options.validate();
 }
 
-double RecursiveEstimator::innovate(const RegressionRow& row) {
+double RecursiveEstimator::observe(const RegressionRow& row) {
   const double innovation = row.output - row.regressor.dot(theta_);
   means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
   return innovation;
@@ -98,7 +98,8 @@ void RecursiveEstimator::correct(const RegressionRow& row, double innovation, do
   theta_ += gain * innovation;
 }
 
-void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residual_variance, double unit) {
+void RecursiveEstimator::releaseExcited(const RegressionRow& row, double residual_variance, double unit) {
+  const Eigen::VectorXd& regressor = row.regressor;
   for (int i = 0; i < numParameters(); ++i) {
     if (covariance_.isReleased(i) || regressor[i] == 0.0) continue;
     const bool relative = options_.initial_variance_rule == InitialVariance::kRelative;
@@ -106,28 +107,22 @@ void RecursiveEstimator::release(const Eigen::VectorXd& regressor, double residu
       covariance_.release(i, theta_[i] * theta_[i] / residual_variance);
     else
       covariance_.release(i, unit * options_.initial_variance / (relative ? regressor[i] * regressor[i] : 1.0));
-    ++num_released_;
   }
 }
 
 void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns) {
   const Eigen::VectorXd before = theta_;
   theta_.resize(columns.size());
-  std::vector<std::optional<int>> sources;
-  for (const ColumnOrigin& column : columns) {
-    theta_[sources.size()] = column.before ? before[*column.before] : column.start;
-    sources.push_back(column.before);
-  }
-  covariance_ = UdCovariance(covariance_, sources);
-  scatter_ = BatchScatter(scatter_, sources);
-  num_released_ = 0;
-  for (int i = 0; i < numParameters(); ++i) num_released_ += covariance_.isReleased(i) ? 1 : 0;
+  for (int i = 0; i < numParameters(); ++i)
+    theta_[i] = columns[i].before ? before[*columns[i].before] : columns[i].start;
+  covariance_ = UdCovariance(covariance_, columns);
+  scatter_ = BatchScatter(scatter_, columns);
 }
 
 double RecursiveLeastSquares::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   drift();
-  const double innovation = innovate(row);
+  const double innovation = observe(row);
   releaseExcited(row, meanSquareResidual(), 1.0);
   correct(row, innovation, 1.0);
   return innovation;
@@ -140,7 +135,7 @@ RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const Recursi
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   drift();
-  const double innovation = innovate(row);
+  const double innovation = observe(row);
   const double weight = weigh(innovation);
   if (!leads()) {
     releaseExcited(row, meanSquareResidual(), 1.0);

@@ -1,5 +1,6 @@
 #include "suspension_health_monitor/internal/model/free_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -14,13 +15,6 @@ namespace {
 constexpr double kMeanMemory = 100.0;  // natural periods
 
 using Split = std::vector<WheelInterpolator>;
-
-// Roots of s^2 + b1 s + b0; an overdamped strut has a slow real one.
-double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
-  const double half = damping_to_mass / 2;
-  const double discriminant = half * half - stiffness_to_mass;
-  return discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;
-}
 
 // A sample as 1, 2, 4, .. steps, in samples; made once, so that no run has to do it while samples come.
 const std::vector<Split>& splits() {
@@ -67,24 +61,11 @@ bool FreeRun::trySetModel(double damping_to_mass, double stiffness_to_mass) {
   if (hasModel()) state_.travel *= model_.stiffness_to_mass / stiffness_to_mass;
   model_.damping_to_mass = damping_to_mass;
   model_.stiffness_to_mass = stiffness_to_mass;
-  if (!hasModel() || !(steps <= steps_.count && 2 * steps > steps_.count)) split(steps);
+  steps_ = &*std::find_if(splits().begin(), splits().end(),
+                          [&](const Split& split) { return steps <= static_cast<double>(split.size()); });
   decay_rate_ = slowestDecay(damping_to_mass, stiffness_to_mass);
   mean_.memory = kMeanMemory * 2 * M_PI / (period_ * std::sqrt(stiffness_to_mass));
   return true;
-}
-
-void FreeRun::split(double steps) {
-  std::size_t i = 0;
-  while (steps > 1 << i) ++i;
-  steps_ = {splits()[i].data(), 1 << i, period_ / (1 << i)};
-}
-
-void FreeRun::setModel(double damping_to_mass, double stiffness_to_mass) {
-  if (trySetModel(damping_to_mass, stiffness_to_mass)) return;
-  throw std::invalid_argument(
-      "damping_to_mass = " + numberText(damping_to_mass) +
-      " [1/s], stiffness_to_mass = " + numberText(stiffness_to_mass) +
-      " [1/s^2]: both must be above 0 and slow enough for sample_period = " + numberText(period_) + " [s]");
 }
 
 void requireUsable(const std::vector<ActiveEffect>& effects) {
@@ -100,23 +81,6 @@ void FreeRun::setEffects(const std::vector<ActiveEffect>& effects) {
   state_.memory = {};
   forces_ = {};
   if (decayed_ > 0.0) countTravelFrom(effects.empty() ? 0.0 : mean_.value);
-}
-
-bool FreeRun::follow(const StrutModel& model, const RecordedWheel& wheel, StrutState state, double bound,
-                     std::vector<double>& predicted, std::vector<StrutState>* motion) {
-  predicted.resize(wheel.num_samples);
-  if (motion != nullptr) motion->resize(wheel.num_samples);
-  const double h = wheel.period / wheel.steps_per_sample;
-  auto step = wheel.steps.begin();
-  for (std::size_t k = 0; k < wheel.num_samples; ++k) {
-    const double time = wheel.start + static_cast<double>(k) * wheel.period;
-    predicted[k] = model.force(state.travel, state.travel_rate, time, state.memory.data());
-    if (!(std::abs(predicted[k]) <= bound)) return false;  // NaN, too
-    if (motion != nullptr) (*motion)[k] = state;
-    if (k + 1 == wheel.num_samples) break;
-    for (int s = 0; s < wheel.steps_per_sample; ++s) integrateStrut(model, time + s * h, h, *step++, state);
-  }
-  return true;
 }
 
 std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
@@ -140,21 +104,21 @@ std::optional<double> FreeRun::push(double unsprung_acceleration, double time) {
 
 // From the sample at `time` to the next.
 void FreeRun::advance(double time) {
-  const double square = period_ * period_;
-  for (int i = 0; i < steps_.count; ++i) {
-    WheelStep wheel = steps_.first[i](input_.window());  // in samples
+  const double square = period_ * period_, step = period_ / static_cast<double>(steps_->size());
+  for (const WheelInterpolator& interpolate : *steps_) {
+    WheelStep wheel = interpolate(input_.window());  // in samples
     wheel.middle_position *= square;
     wheel.middle_velocity *= period_;
     wheel.end_position *= square;
     wheel.end_velocity *= period_;
-    if (withEffects()) takeOff(offset_, steps_.length, wheel);
-    integrateStrut(model_, time + i * steps_.length, steps_.length, wheel, state_);
+    if (withEffects()) takeOff(offset_, step, wheel);
+    integrateStrut(model_, time, step, wheel, state_);
+    time += step;
   }
 }
 
 double FreeRun::predict(double time) {
-  if (!withEffects()) return model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
-  countTravelFrom(mean_.value);
+  if (withEffects()) countTravelFrom(mean_.value);  // else from 0
   double prediction = offset_ + model_.damping_to_mass * state_.travel_rate + model_.stiffness_to_mass * state_.travel;
   for (std::size_t j = 0; j < model_.effects.size(); ++j) {
     const ActiveEffect& active = model_.effects[j];

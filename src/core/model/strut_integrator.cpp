@@ -5,12 +5,6 @@ namespace {
 
 constexpr double Memory::*kNumbers[] = {&Memory::s, &Memory::second};
 
-/// What changes along a step, or how fast: the body's part of the motion since its beginning, and the memories.
-struct Along {
-  double position = 0.0, velocity = 0.0;
-  std::array<Memory, kMostEffects> memory;
-};
-
 Memory advanced(Memory memory, double by, const Memory& rate) {
   for (const auto number : kNumbers) memory.*number += by * rate.*number;
   return memory;
@@ -19,26 +13,28 @@ Memory advanced(Memory memory, double by, const Memory& rate) {
 /// At one of the instants of a step. The plain strut leaves out everything about effects: it is on the sample path of
 /// every monitor.
 /// @param travel, travel_rate  as the wheel alone makes them.
+/// @param body  the body's part of the motion since the step began, which is taken off, and the memories.
+/// @return the rates of all that is in `body`.
 template <bool kWithEffects>
-Along slopeAt(const StrutModel& model, double time, double travel, double travel_rate, const Along& body) {
-  travel -= body.position;
-  travel_rate -= body.velocity;
-  Along slope;
-  slope.position = body.velocity;
+StrutState slopeAt(const StrutModel& model, double time, double travel, double travel_rate, const StrutState& body) {
+  travel -= body.travel;
+  travel_rate -= body.travel_rate;
+  StrutState slope;
+  slope.travel = body.travel_rate;
   if constexpr (kWithEffects) {
-    slope.velocity = model.force(travel, travel_rate, time, body.memory.data());
+    slope.travel_rate = model.force(travel, travel_rate, time, body.memory.data());
     for (std::size_t j = 0; j < model.effects.size(); ++j)
-      slope.memory[j] = model.effects[j].memoryRate({travel, travel_rate, time, body.memory[j], slope.velocity});
+      slope.memory[j] = model.effects[j].memoryRate({travel, travel_rate, time, body.memory[j], slope.travel_rate});
   } else {
-    slope.velocity = model.damping_to_mass * travel_rate + model.stiffness_to_mass * travel;
+    slope.travel_rate = model.damping_to_mass * travel_rate + model.stiffness_to_mass * travel;
   }
   return slope;
 }
 
 template <bool kWithEffects>
 void integrate(const StrutModel& model, double time, double step, const WheelStep& wheel, StrutState& state) {
-  const auto moved = [&](double by, const Along& slope) {
-    Along body{by * slope.position, by * slope.velocity, {}};
+  const auto moved = [&](double by, const StrutState& slope) {
+    StrutState body{by * slope.travel, by * slope.travel_rate, {}};
     if constexpr (kWithEffects)
       for (std::size_t j = 0; j < model.effects.size(); ++j)
         body.memory[j] = advanced(state.memory[j], by, slope.memory[j]);
@@ -51,13 +47,13 @@ void integrate(const StrutModel& model, double time, double step, const WheelSte
   const double end = state.travel + step * state.travel_rate + wheel.end_position;
   const double end_rate = state.travel_rate + wheel.end_velocity;
   constexpr auto slope = slopeAt<kWithEffects>;
-  const Along k1 = slope(model, time, state.travel, state.travel_rate, moved(0.0, {0.0, 0.0, {}}));
-  const Along k2 = slope(model, time + half, middle, middle_rate, moved(half, k1));
-  const Along k3 = slope(model, time + half, middle, middle_rate, moved(half, k2));
-  const Along k4 = slope(model, time + step, end, end_rate, moved(step, k3));
+  const StrutState k1 = slope(model, time, state.travel, state.travel_rate, moved(0.0, {}));
+  const StrutState k2 = slope(model, time + half, middle, middle_rate, moved(half, k1));
+  const StrutState k3 = slope(model, time + half, middle, middle_rate, moved(half, k2));
+  const StrutState k4 = slope(model, time + step, end, end_rate, moved(step, k3));
   const double sixth = step / 6;
-  state.travel = end - sixth * (k1.position + 2 * (k2.position + k3.position) + k4.position);
-  state.travel_rate = end_rate - sixth * (k1.velocity + 2 * (k2.velocity + k3.velocity) + k4.velocity);
+  state.travel = end - sixth * (k1.travel + 2 * (k2.travel + k3.travel) + k4.travel);
+  state.travel_rate = end_rate - sixth * (k1.travel_rate + 2 * (k2.travel_rate + k3.travel_rate) + k4.travel_rate);
   if constexpr (kWithEffects)
     for (std::size_t j = 0; j < model.effects.size(); ++j)
       for (const auto n : kNumbers)

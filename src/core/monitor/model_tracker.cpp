@@ -29,12 +29,6 @@ bool isModel(const StrutEstimate& estimate) {
          estimate.doubt == EstimateDoubt::kOldData;
 }
 
-BlockOptions blockOptions(const MonitorSettings& options) {
-  BlockOptions blocks;
-  blocks.length = options.presentBlockLength();
-  return blocks;
-}
-
 void write(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& estimate) {
   const auto stddev = [&](int i) { return std::sqrt(blocks.covariance(i, i)); };
   estimate.damping_to_mass = blocks.theta[kBlockDamping];
@@ -70,13 +64,13 @@ void write(const TopEstimate& blocks, std::size_t num_effects, StrutEstimate& es
 
 ModelTracker::ModelTracker(const MonitorSettings& options, bool has_own_blocks)
     : is_paper_(options.preset == "paper"),
-      block_options_(blockOptions(options)),
+      block_length_(options.presentBlockLength()),
       period_(*options.sample_period),
       oldest_data_(options.oldest_data),
       identifier_(options),
       free_run_(*options.sample_period),
       comparison_(1.0 - std::min(1.0, *options.sample_period / options.comparison_window)) {
-  if (has_own_blocks) blocks_.emplace(VehicleChannels::ofAccelerometers(), block_options_, period_);
+  if (has_own_blocks) blocks_.emplace(VehicleChannels::ofAccelerometers(), period_, block_length_);
 }
 
 void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const std::optional<LinearStrut>& strut,
@@ -84,7 +78,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
   identifier_.changeEffects(columns);
-  blocks_.emplace(VehicleChannels::ofAccelerometers(), block_options_, period_, effects.size());
+  blocks_.emplace(VehicleChannels::ofAccelerometers(), period_, block_length_, effects.size());
   newest_.reset();
   has_own_model_ = is_given_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);
   starts_.clear();
@@ -144,7 +138,13 @@ bool ModelTracker::addRow(const CornerSample& sample, ModelReport& report) {
 }
 
 void ModelTracker::judge(ModelReport& report) {
-  judgeBlocks(report.estimate);
+  EstimateFacts of_blocks = factsOf(report.estimate, newest_.has_value());
+  if (newest_) {
+    // Samples of a vehicle's strut are late, and may be older than its blocks.
+    report.estimate.age = of_blocks.age = newest_->age + std::max(0.0, toSeconds(now_ - newest_->stamp));
+    of_blocks.oldest = oldest_data_;
+  }
+  report.estimate.doubt = doubtOf(of_blocks);
   for (StrutEstimate* estimate : {&report.ls, &report.la}) {
     EstimateFacts facts = identifier_.facts(*estimate, of_input_);
     facts.free_run_fails = estimate == &report.la && is_paper_ && free_run_fails_;
@@ -165,16 +165,6 @@ EstimateFacts ModelTracker::factsOf(const StrutEstimate& estimate, bool has_esti
                                    estimate.stiffnessAbsoluteStddev() / estimate.stiffness_to_mass);
   facts.explained = estimate.explained;
   return facts;
-}
-
-void ModelTracker::judgeBlocks(StrutEstimate& estimate) const {
-  EstimateFacts facts = factsOf(estimate, newest_.has_value());
-  if (newest_) {
-    // Samples of a vehicle's strut are late, and may be older than its blocks.
-    estimate.age = facts.age = newest_->age + std::max(0.0, toSeconds(now_ - newest_->stamp));
-    facts.oldest = oldest_data_;
-  }
-  estimate.doubt = doubtOf(facts);
 }
 
 StrutEstimate ModelTracker::judged(const std::optional<TopEstimate>& blocks,

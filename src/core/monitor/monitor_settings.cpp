@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
@@ -37,7 +38,7 @@ MonitorOptions takeMonitorOptions(OptionMap& values) {
 MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions(options) {
   if (preset != "paper") return;
   estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
-  estimators.sensors = SensorColumns::kNone;
+  estimators.drifting_offset = false;
   estimators.forgets_unexcited = true;
   estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
   estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
@@ -97,8 +98,8 @@ double MonitorSettings::presentBlockLength() const {
   const double apart = std::abs(std::round(std::log2(presentHorizon() / kDefaultHorizon)));
   // Horizons that the data propose are a fourth of the bounce's period, and a block holds three of these.
   constexpr double kHorizons = 12.0;
-  const double octaves = std::round(std::log2(kHorizons * presentHorizon() / BlockOptions().length));
-  return block_length.value_or(BlockOptions().length * (apart > 1.0 ? std::exp2(octaves) : 1.0));
+  const double octaves = std::round(std::log2(kHorizons * presentHorizon() / kBlockTuning.length));
+  return block_length.value_or(kBlockTuning.length * (apart > 1.0 ? std::exp2(octaves) : 1.0));
 }
 
 double MonitorSettings::presentMemory() const {

@@ -16,7 +16,7 @@ constexpr double kMostLost = 10.0;  // memories
 
 RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
   RecursiveOptions recursive = options.recursive(2 * horizon_samples);
-  if (options.estimators.sensors == SensorColumns::kDriftingOffset) recursive.drifting = kStiffnessToMass;
+  recursive.drifting_offset = options.estimators.drifting_offset;
   return recursive;
 }
 
@@ -48,12 +48,12 @@ void writeParameters(const Estimator& estimator, int num_model, StrutEstimate& e
 
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
     : filter_(options.filter(*options.sample_period)),
-      sensors_(options.estimators.sensors),
+      offset_columns_(options.estimators.drifting_offset ? 2 : 0),
       forgets_unexcited_(options.estimators.forgets_unexcited),
-      regression_(filter_, 0, sensors_),
-      least_squares_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters + count(sensors_), recursiveOf(options, filter_.horizon_samples),
-                      options.leastAbsolute()),
+      regression_(filter_, 0, options.estimators.drifting_offset),
+      least_squares_(kNumStrutParameters + offset_columns_, recursiveOf(options, filter_.horizon_samples)),
+      least_absolute_(kNumStrutParameters + offset_columns_, recursiveOf(options, filter_.horizon_samples),
+                      options.estimators.least_absolute),
       silent_rows_(filter_.horizon_samples),
       rows_(std::numeric_limits<double>::infinity()) {  // the plain columns are there from the first row on
   setForgetting(options);
@@ -65,9 +65,9 @@ void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
     if (effect.before) *effect.before += kNumStrutParameters;
     columns.push_back(effect);
   }
-  for (int j = 0; j < count(sensors_); ++j) columns.push_back({numModelColumns() + j, 0.0});
+  for (int j = 0; j < offset_columns_; ++j) columns.push_back({numModelColumns() + j, 0.0});
   forEach([&](RecursiveEstimator& estimator) { estimator.changeColumns(columns); });
-  regression_ = SuspensionRegression(filter_, effects.size(), sensors_);
+  regression_ = SuspensionRegression(filter_, effects.size(), offset_columns_ > 0);
   has_row_ = false;
   rows_ = 0.0;
 }

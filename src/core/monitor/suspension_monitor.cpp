@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace suspension_health_monitor {
@@ -9,6 +10,9 @@ namespace {
 // Horizons that LA needs before it may accuse a sensor, and shortest memory of the means of readings.
 constexpr double kHorizonsOfSensorCheck = 17.0;
 constexpr double kChecksPerHorizon = 1.5;  // of the sensors: samples within a horizon say much the same
+
+constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
+constexpr double kSpacings = 50.0;         // before their mean counts: jitter of half a period shifts it by a hundredth
 
 const MonitorSettings& checked(const MonitorSettings& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
@@ -21,7 +25,8 @@ const MonitorSettings& checked(const MonitorSettings& options) {
 SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options, bool has_own_blocks)
     : options_(checked(options)),
       horizon_samples_(options.horizonSamples(*options.sample_period)),
-      series_(fromSeconds(*options.sample_period)),
+      period_(fromSeconds(*options.sample_period)),
+      spacing_(1.0 - 0.1 / kSpacings),
       plain_(options, has_own_blocks),
       health_(options.health()),
       sensors_(std::max(options.comparison_window / *options.sample_period, kHorizonsOfSensorCheck * horizon_samples_),
@@ -45,7 +50,7 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects, con
   next.setEffects(effects, strut, report);
   if (!extended_) {
     base_ = report_;
-    reported_until_ = series_.newest();
+    reported_until_ = last_.value_or(Stamp::zero());
   }
   static_cast<ModelReport&>(report_) = report;
   extended_.emplace(std::move(next));
@@ -76,7 +81,7 @@ void SuspensionMonitor::takeEstimate(const TopEstimate& estimate, const Eigen::V
 }
 
 const MonitorReport* SuspensionMonitor::addGridSample(const CornerSample& sample) {
-  const std::optional<Continuity> how = series_.add(sample);
+  const std::optional<Continuity> how = follow(sample);
   if (!how) return nullptr;
   if (*how != Continuity::kContinues) {
     reported_until_.reset();
@@ -94,25 +99,57 @@ const MonitorReport* SuspensionMonitor::addGridSample(const CornerSample& sample
   return &report_;
 }
 
+// Notes where a series ends, and whether samples come at the period that was said.
+// @return how the sample follows the one before, kGap and kClockJumped beginning a new series; empty: it was rejected.
+std::optional<Continuity> SuspensionMonitor::follow(const CornerSample& sample) {
+  if (!isUsable(sample.sprung_acceleration) || !isUsable(sample.unsprung_acceleration)) {
+    rejected_.add(RejectReason::kNotFinite);
+    return std::nullopt;
+  }
+  const Continuity how = last_ ? continuity(sample.stamp - *last_, period_) : Continuity::kContinues;
+  if (how == Continuity::kTooSoon) {
+    rejected_.add(RejectReason::kTooSoon);
+    return std::nullopt;
+  }
+  if (how == Continuity::kGap) ++input_.gaps;
+  if (how == Continuity::kClockJumped) ++input_.restarts;
+  if (how != Continuity::kContinues) {
+    recent_.clear();
+  } else if (last_) {
+    spacing_.add(toSeconds(sample.stamp - *last_));
+    input_.mean_period = spacing_.mean();
+  }
+  if (!first_ || how == Continuity::kClockJumped) first_ = sample.stamp;
+  last_ = sample.stamp;
+  ++input_.samples;
+  recent_.push_back(sample);
+  return how;
+}
+
 // Leads the sample through the models.
 // @return the sample that the report is about; nullptr: none yet.
 const CornerSample* SuspensionMonitor::track(const CornerSample& sample) {
-  const CornerSample* compared = series_.delayed();
-  plain_.add(sample, series_.time(), compared, extended_ ? base_ : report_);
+  const CornerSample* compared = recent_.full() ? &recent_.front() : nullptr;  // FreeRun::kDelay before the newest
+  const double time = toSeconds(sample.stamp - *first_);
+  plain_.add(sample, time, compared, extended_ ? base_ : report_);
   if (extended_) {
     extended_->lead(base_.la);
-    has_new_estimate_ = extended_->add(sample, series_.time(), compared, report_) || has_new_estimate_;
+    has_new_estimate_ = extended_->add(sample, time, compared, report_) || has_new_estimate_;
     report_.comparison.base_rmse = base_.comparison.rmse;
     report_.comparison.base_fit_percent = base_.comparison.fit_percent;
   }
-  if (report_.has_row) series_.countRow();
+  if (report_.has_row) ++input_.rows;
   return extended_ ? compared : &sample;
 }
 
 void SuspensionMonitor::judgeSensors() {
-  series_.note(sensors_);  // what the sensors' check found last time: it judges below
-  series_.judge();
-  changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input(), series_.newest(), report); });
+  // What their check found last time: it judges below.
+  input_.beyond_strut = sensors_.bodyBeyondStrut();
+  input_.beyond_strut_level = sensors_.bodyBeyondStrutLevel();
+  input_.unit_fits = sensors_.report().fault != SensorFault::kInG;
+  if (spacing_.weight() >= kSpacings)
+    input_.period_fits = std::abs(input_.mean_period / toSeconds(period_) - 1.0) <= kPeriodTolerance;
+  changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input_, *last_, report); });
   const bool la_tells =
       !tracker().holds() && report_.la.effective_rows >= options_.fewestRows(kHorizonsOfSensorCheck, period());
   const bool is_fresh = temperature_ && toSeconds(report_.stamp - temperature_->first) < options_.oldest_data;

@@ -38,13 +38,14 @@ TyreTracker::TyreTracker(const MonitorSettings& options)
       silent_rows_(horizon_samples_),
       regression_(options.tyreFilter(*options.sample_period)),
       least_squares_(kNumTyreParameters, options.recursive(2 * horizon_samples_)),
-      least_absolute_(kNumTyreParameters, options.recursive(2 * horizon_samples_), options.leastAbsolute()) {}
+      least_absolute_(kNumTyreParameters, options.recursive(2 * horizon_samples_), options.estimators.least_absolute) {}
 
 const TyreReport& TyreTracker::add(const CornerSample& sample, const std::optional<double>& road_acceleration) {
   report_.has_row = false;
   const bool usable = isUsable(sample.sprung_acceleration) && isUsable(sample.unsprung_acceleration) &&
                       road_acceleration && isUsable(*road_acceleration);
-  if (!usable || !continues(sample.stamp)) {
+  const bool continues = !last_stamp_ || continuity(sample.stamp - *last_stamp_, period_) == Continuity::kContinues;
+  if (!usable || !continues) {
     regression_.reset();
     least_squares_.interrupt();
     least_absolute_.interrupt();
@@ -54,10 +55,6 @@ const TyreReport& TyreTracker::add(const CornerSample& sample, const std::option
     if (const RegressionRow* row = regression_.push(sample, *road_acceleration)) estimate(*row);
   judge();
   return report_;
-}
-
-bool TyreTracker::continues(Stamp stamp) const {
-  return !last_stamp_ || continuity(stamp - *last_stamp_, period_) == Continuity::kContinues;
 }
 
 void TyreTracker::estimate(const RegressionRow& row) {

@@ -83,11 +83,7 @@ void VehicleMonitor::addReading(const VehicleChannels& vehicle, const VehicleRea
     return struts_.front().addReading(side, reading.stamp, reading.values[0]);
   }
   if (!std::all_of(reading.values.begin(), reading.values.end(), isUsable)) return;
-  if (!blocks_) {
-    BlockOptions options;
-    options.length = starts_.front().settings.presentBlockLength();
-    blocks_.emplace(vehicle, options, toSeconds(period_));
-  }
+  if (!blocks_) blocks_.emplace(vehicle, toSeconds(period_), settings().presentBlockLength());
   const TopEstimate* estimate = blocks_->push(reading);
   if (blocks_->hasDeadGyro()) return takeDeadGyro();
   if (estimate == nullptr) return;
@@ -106,17 +102,17 @@ void VehicleMonitor::takeDeadGyro() {
 }
 
 // The least that all of them have: a worn one among them has no say.
-std::optional<LogChange> VehicleMonitor::sharedByOthers(std::size_t strut) const {
-  std::optional<LogChange> shared;
+std::optional<Measured> VehicleMonitor::sharedByOthers(std::size_t strut) const {
+  std::optional<Measured> shared;
   std::pair<double, double> range(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < numStruts(); ++i) {
     if (i == strut) continue;
-    const std::optional<LogChange>& change = struts_[i].dampingChange();
+    const std::optional<Measured>& change = struts_[i].dampingChange();
     if (!change) return std::nullopt;
-    if (!shared || std::abs(change->size) < std::abs(shared->size)) shared = change;
-    range = {std::min(range.first, change->size), std::max(range.second, change->size)};
+    if (!shared || std::abs(change->value) < std::abs(shared->value)) shared = change;
+    range = {std::min(range.first, change->value), std::max(range.second, change->value)};
   }
-  shared->size = nearestToNone(range);
+  shared->value = nearestToNone(range);
   return shared;
 }
 
@@ -186,7 +182,7 @@ void VehicleMonitor::fitRows() {
   claims_.reset();
   BodyRows rows;
   if (!blocks_->rows(rows)) return;
-  body_ = BodyFit::of(numStruts(), blocks_->vehicle().places()).fit(rows, blocks_->rowsOfHalves());
+  body_ = BodyFit(numStruts(), blocks_->vehicle().places()).fit(rows, blocks_->rowsOfHalves());
 }
 
 void VehicleMonitor::fitBodyIfDue() {

@@ -27,7 +27,7 @@ VehiclePipeline::VehiclePipeline(const std::vector<MonitorSettings>& settings, c
     : streams_(streams),
       sinks_(std::move(sinks)),
       monitor_(settings, sinks_.report, static_cast<int>(streams.channels.known_forces.size())),
-      first_readings_(requiredOf(streams), kMostWaiting) {
+      first_readings_(requiredOf(streams)) {
   if (settings.front().sample_period) start();
 }
 
@@ -58,7 +58,8 @@ void VehiclePipeline::push(std::size_t sensor, Stamp stamp, const double* values
     if (!period) return;
     startOnce(*period);
   }
-  replayFirstReadings();
+  // A sink may throw; readings that come after those that it has seen wait for the next push().
+  while (const auto first = first_readings_.next()) grid_->push(first->stream, first->stamp, first->values);
 }
 
 // Settings that do not fit what was measured will not fit it at the next reading either: that is said once.
@@ -73,21 +74,15 @@ void VehiclePipeline::startOnce(double period) {
   }
 }
 
-// A sink may throw; readings that come after those that it has seen wait for the next push().
-void VehiclePipeline::replayFirstReadings() {
-  while (const auto reading = first_readings_.next()) grid_->push(reading->stream, reading->stamp, reading->values);
-}
-
 void VehiclePipeline::finish() {
   if (grid_) grid_->finish();
 }
 
 void VehiclePipeline::take(const VehicleSample& sample) {
   newest_ = sample.stamp;
-  road_ = sample.road;
   if (tyre_) {
     tyre_->setPeriodFits(monitor_.strut(0)->input().period_fits);
-    tyre_->add(sample.ofStrut(0), std::isnan(road_) ? std::nullopt : std::optional(road_));
+    tyre_->add(sample.ofStrut(0), std::isnan(sample.road) ? std::nullopt : std::optional(sample.road));
   }
   monitor_.addGridSample(sample);
   if (sinks_.sample) sinks_.sample(sample);

@@ -211,17 +211,16 @@ Records pointersTo(const std::deque<DriveRecord>& records) {
 }
 
 std::vector<std::pair<std::string, BodyChannel>> takeUntestable(EffectLibrary& library, const Records& records) {
+  const auto isTestable = [&](const MeasurementEffect& effect) {
+    return effect.channels.empty() || std::any_of(effect.channels.begin(), effect.channels.end(),
+                                                  [&](BodyChannel channel) { return isKnown(records, channel); });
+  };
+  std::vector<MeasurementEffect>& readings = library.readings;
+  const auto first = std::stable_partition(readings.begin(), readings.end(), isTestable);
   std::vector<std::pair<std::string, BodyChannel>> untestable;
-  std::vector<MeasurementEffect> testable;
-  for (const MeasurementEffect& effect : library.readings) {
-    const bool any = std::any_of(effect.channels.begin(), effect.channels.end(),
-                                 [&](BodyChannel channel) { return isKnown(records, channel); });
-    if (any || effect.channels.empty())
-      testable.push_back(effect);
-    else
-      untestable.emplace_back(effect.name, effect.channels.front());
-  }
-  library.readings = testable;
+  for (auto effect = first; effect != readings.end(); ++effect)
+    untestable.emplace_back(effect->name, effect->channels.front());
+  readings.erase(first, readings.end());
   return untestable;
 }
 

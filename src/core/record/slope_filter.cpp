@@ -31,14 +31,9 @@ double meanSquare(const SlopeFilter& slope, const std::vector<std::vector<double
 
 SlopeFilter::SlopeFilter(int half_width, double period) {
   // Normal equations of x = a t + b t^3; even powers do not touch the slope in the middle.
-  double s2 = 0.0, s4 = 0.0, s6 = 0.0;
-  for (double k = 1.0; k <= half_width; ++k) {
-    s2 += 2.0 * std::pow(k, 2);
-    s4 += 2.0 * std::pow(k, 4);
-    s6 += 2.0 * std::pow(k, 6);
-  }
-  for (double k = 1.0; k <= half_width; ++k)
-    weights_.push_back((s6 * k - s4 * std::pow(k, 3)) / (s2 * s6 - s4 * s4) / period);
+  const Eigen::ArrayXd k = Eigen::ArrayXd::LinSpaced(half_width, 1.0, half_width);
+  const double s2 = 2.0 * k.square().sum(), s4 = 2.0 * k.pow(4.0).sum(), s6 = 2.0 * k.pow(6.0).sum();
+  weights_ = (s6 * k - s4 * k.cube()) / ((s2 * s6 - s4 * s4) * period);
 }
 
 SlopeFilter SlopeFilter::fitting(const std::vector<std::vector<double>>& series, double period) {
@@ -54,12 +49,6 @@ double SlopeFilter::operator()(const double* middle) const {
   double sum = 0.0;
   for (int k = 1; k <= halfWidth(); ++k) sum += weights_[k - 1] * (middle[k] - middle[-k]);
   return sum;
-}
-
-double SlopeFilter::noiseGain() const {
-  double sum = 0.0;
-  for (const double weight : weights_) sum += 2.0 * weight * weight;
-  return std::sqrt(sum);
 }
 
 }  // namespace suspension_health_monitor

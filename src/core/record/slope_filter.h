@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -22,10 +24,10 @@ class SlopeFilter {
   double operator()(const double* middle) const;
 
   int halfWidth() const { return static_cast<int>(weights_.size()); }
-  double noiseGain() const;
+  double noiseGain() const { return std::sqrt(2.0) * weights_.norm(); }
 
  private:
-  std::vector<double> weights_;  // of x[k] - x[-k], k = 1 .. m
+  Eigen::VectorXd weights_;  // of x[k] - x[-k], k = 1 .. m
 };
 
 }  // namespace suspension_health_monitor

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "suspension_health_monitor/internal/base/text.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -23,9 +22,9 @@ const RankedModel* without(const Diagnosis& found, const std::vector<std::string
   return ranked == found.ranking.end() ? nullptr : &*ranked;
 }
 
-std::optional<RelativeChange> changeOf(double without, double with, double stddev) {
+std::optional<Measured> changeOf(double without, double with, double stddev) {
   if (!(with > kLikely * stddev)) return std::nullopt;
-  return RelativeChange{without / with - 1.0, stddev / with};
+  return Measured{without / with - 1.0, stddev / with};
 }
 
 EffectCost costOf(const Diagnosis& found, const RankedModel& before, const std::vector<std::string>& left_out) {
@@ -49,9 +48,6 @@ EffectCost costOf(const Diagnosis& found, const RankedModel& before, const std::
 }
 
 }  // namespace
-
-double RelativeChange::most() const { return std::abs(value) + kLikely * stddev; }
-bool RelativeChange::isKnown() const { return std::abs(value) > kLikely * stddev; }
 
 bool EffectCost::isHarmless() const {
   const auto is_small = [](const auto& change) { return change && change->most() < kLeastDifference; };

@@ -17,10 +17,6 @@ constexpr double kStarted = 0.1, kForward = 0.85;  // of the progress
 
 using Names = std::vector<std::string>;
 
-bool contains(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// What is in a model and was not in the one that the search started with.
 Names namesBeyond(const EvaluatedModel& base, const EvaluatedModel& model) {
   Names added;
@@ -52,16 +48,13 @@ double shareOf(const EvaluatedModel& before, const EvaluatedModel& after, double
 
 class Search {
  public:
-  Search(const Records& records, const HoldOut& held_out, const ModelFit& rough, std::size_t most_forces,
-         const DiagnoseOptions& options, const std::optional<StrutModel>& lagged)
-      : records_(records),
-        options_(options),
-        lagged_(lagged),
-        evaluator_(records, held_out, outlierOf(rough), most_forces, options, lagged) {}
+  Search(const Records& records, const DiagnoseOptions& options, const ModelEvaluator& evaluator)
+      : records_(records), options_(options), evaluator_(evaluator) {}
 
-  SearchResult run(const ModelFit& rough) {
+  /// @param keeps  whether a search goes on with the rough model as it is where no fit comes of it.
+  SearchResult run(const ModelFit& rough, bool keeps) {
     base_ = evaluator_.evaluate(rough.model, rough.initial, nullptr);
-    if (!base_.ranked.fitted && lagged_) base_ = evaluator_.asItIs(rough);
+    if (!base_.ranked.fitted && keeps) base_ = evaluator_.asItIs(rough);
     if (!base_.ranked.fitted) {
       result_.shortcoming = Shortcoming::kNoStableFit;
       return result_;
@@ -275,8 +268,7 @@ class Search {
 
   const Records& records_;
   const DiagnoseOptions& options_;
-  const std::optional<StrutModel>& lagged_;
-  ModelEvaluator evaluator_;
+  const ModelEvaluator& evaluator_;
   EvaluatedModel base_;
   std::optional<Selection> suspect_;    // the best addition to the base
   std::vector<EvaluatedModel> rivals_;  // all that were tried for it
@@ -301,8 +293,9 @@ SearchResult searchEffects(const Records& records, const StrutModel& start, cons
   if (!rough) return without(Shortcoming::kNoStableFit);
   const std::optional<HoldOut> held_out = splitHoldOut(records, rough->model.stiffness_to_mass);
   if (!held_out) return without(Shortcoming::kTooShort);
-  const std::size_t most_forces = start.effects.size() + options.most_forces;
-  return Search(records, *held_out, *rough, most_forces, options, lagged).run(*rough);
+  const ModelEvaluator evaluator(records, *held_out, outlierOf(*rough), start.effects.size() + options.most_forces,
+                                 options, lagged);
+  return Search(records, options, evaluator).run(*rough, lagged.has_value());
 }
 
 }  // namespace suspension_health_monitor

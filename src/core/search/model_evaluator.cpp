@@ -19,11 +19,6 @@ constexpr double kPromising = 0.8;       // share of the best candidate's gain t
 constexpr double kScreeningError = 1.2;  // by how much screening may overestimate a loss
 constexpr double kScreeningTime = 0.4;   // of a round
 
-// A model that was fitted can still run away in the stretches that were held out.
-FitFailure runningAway(const EvaluatedModel& evaluated) {
-  return std::isfinite(evaluated.ranked.held_out_rmse) ? FitFailure::kNone : FitFailure::kRunsAway;
-}
-
 /// Calls work(i) for i = 0 .. count - 1 on several threads, the calling one among them, and tick() on the calling
 /// thread after each of its own items, with the share of all that these are. What tick() throws ends the work early and
 /// passes on. work must not throw.
@@ -66,6 +61,8 @@ EvaluatedModel ModelEvaluator::weighed(const StrutModel& model, const Residuals&
   evaluated.ranked.model = model;
   evaluated.ranked.effects = effectNames(model);
   evaluated.ranked.held_out_rmse = held_out_.rmse(held_out_.stretchErrors(residuals));
+  // A model that was fitted can still run away in the stretches that were held out.
+  if (!std::isfinite(evaluated.ranked.held_out_rmse)) evaluated.ranked.failure = FitFailure::kRunsAway;
   evaluated.stretches = held_out_.stretchLosses(residuals, outlier_);
   evaluated.independent = held_out_.independentSquares(residuals);
   evaluated.loss = std::accumulate(evaluated.stretches.begin(), evaluated.stretches.end(), 0.0);
@@ -104,7 +101,6 @@ EvaluatedModel ModelEvaluator::failed(const EvaluatedModel& before, FitFailure f
   nothing.ranked.fitted = nothing.ranked.significant = false;
   nothing.ranked.failure = failure;
   nothing.ranked.error_removed_percent = nothing.ranked.significance = nothing.training_gain = 0.0;
-  nothing.tried = true;
   return nothing;
 }
 
@@ -115,7 +111,7 @@ EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vect
   const auto without = [&](FitFailure why) { return failed(before != nullptr ? *before : EvaluatedModel(), why); };
   if (failure != FitFailure::kNone) return without(failure);
   EvaluatedModel evaluated = weighed(fit->model, fit->residuals);
-  if (const FitFailure held_out = runningAway(evaluated); held_out != FitFailure::kNone) return without(held_out);
+  if (evaluated.ranked.failure != FitFailure::kNone) return without(evaluated.ranked.failure);
   evaluated.fit = *fit;
   evaluated.ranked.fitted = true;
   evaluated.to_explain = before != nullptr ? before->to_explain : evaluated.loss;
@@ -126,7 +122,6 @@ EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vect
 EvaluatedModel ModelEvaluator::asItIs(const ModelFit& fit) const {
   EvaluatedModel evaluated = weighed(fit.model, fit.residuals);
   evaluated.fit = fit;
-  evaluated.ranked.failure = runningAway(evaluated);
   evaluated.ranked.fitted = evaluated.ranked.failure == FitFailure::kNone;
   evaluated.to_explain = evaluated.loss;
   return evaluated;
@@ -134,11 +129,11 @@ EvaluatedModel ModelEvaluator::asItIs(const ModelFit& fit) const {
 
 EvaluatedModel ModelEvaluator::expected(const std::string& added, const ScreenedModel& screened,
                                         const EvaluatedModel& current) const {
-  EvaluatedModel result;
   FitFailure failure = screened.failure;
+  EvaluatedModel result;
   if (failure == FitFailure::kNone) {
     result = weighed(screened.model, screened.residuals);
-    failure = runningAway(result);
+    failure = result.ranked.failure;
   }
   if (failure == FitFailure::kNone) {
     result.training_gain = screened.training_gain;
@@ -191,10 +186,7 @@ std::vector<EvaluatedModel> ModelEvaluator::screenAll(const EvaluatedModel& curr
   const std::vector<MeasurementEffect>& readings = options_.candidates.readings;
   std::vector<std::optional<EvaluatedModel>> results(forces.size() + readings.size());
   const bool is_full = current.fit.model.effects.size() >= most_forces_;
-  const auto isPresent = [&](const std::string& name) {
-    const std::vector<std::string>& present = current.ranked.effects;
-    return std::find(present.begin(), present.end(), name) != present.end();
-  };
+  const auto isPresent = [&](const std::string& name) { return contains(current.ranked.effects, name); };
   const auto screenAt = [&](std::size_t i) {
     if (i < forces.size()) {
       if (!is_full && !isPresent(forces[i].name)) results[i] = screen(forces[i], screening, row_start, current);
@@ -223,7 +215,6 @@ void ModelEvaluator::fitAll(const std::vector<std::size_t>& wanted, const Evalua
     if (wanders(fitted, current)) fitted = failed(current, FitFailure::kWanders);
     fitted.added = candidate.added;
     fitted.ranked.effects = candidate.ranked.effects;
-    fitted.tried = true;
     candidate = std::move(fitted);
   };
   forEachInParallel(wanted.size(), options_.threads, fit, tick);
@@ -254,7 +245,7 @@ std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& 
   const double least_gain = kWorthHaving / 2.0 * held_out_.trainingError(current.fit.residuals);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < ranking.size(); ++i)
-    if (!ranking[i].tried && (i < kFitted || ranking[i].training_gain > kPromising * ranking.front().training_gain))
+    if (!ranking[i].isTried() && (i < kFitted || ranking[i].training_gain > kPromising * ranking.front().training_gain))
       wanted.push_back(i);
   while (!wanted.empty()) {
     fitAll(wanted, current, ranking, [&](double share) { tick(kScreeningTime + (1.0 - kScreeningTime) * share); });
@@ -264,7 +255,8 @@ std::vector<EvaluatedModel> ModelEvaluator::rankAdditions(const EvaluatedModel& 
       if (candidate.ranked.fitted) limit = std::min(limit, kScreeningError * candidate.loss);
     wanted.clear();
     for (std::size_t i = 0; i < ranking.size(); ++i)
-      if (!ranking[i].tried && ranking[i].training_gain > least_gain && ranking[i].loss < limit) wanted.push_back(i);
+      if (!ranking[i].isTried() && ranking[i].training_gain > least_gain && ranking[i].loss < limit)
+        wanted.push_back(i);
   }
   std::stable_sort(ranking.begin(), ranking.end(), [](const EvaluatedModel& a, const EvaluatedModel& b) {
     return a.ranked.fitted != b.ranked.fitted ? a.ranked.fitted : a.loss < b.loss;

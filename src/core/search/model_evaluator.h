@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,15 +19,21 @@ struct EvaluatedModel {
   std::string added;                       ///< what it has and the model before had not
   double training_gain = 0.0;              ///< as ScreenedModel has it
   std::optional<StrutModel> second_start;  ///< for a fit, if the first fails
-  bool tried = false;                      ///< a fit was tried; it may have failed
   ModelFit fit;                            ///< empty unless ranked.fitted
   std::vector<double> stretches;           ///< held-out loss by stretch
   double loss = 0.0;                       ///< their sum
   double independent = 0.0;                ///< HoldOut::independentSquares()
   double to_explain = 0.0;                 ///< the loss of the model that the search began with
 
+  /// @return true if it was fitted or has failed; false: only screened.
+  bool isTried() const { return ranked.fitted || ranked.failure != FitFailure::kNone; }
+
   PairedTest gainOf(const EvaluatedModel& after) const { return testPaired(stretches, after.stretches, independent); }
 };
+
+inline bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 /// Free parameters of a model beyond b1 and b0: the simpler of two equal ones is preferred.
 std::size_t complexity(const StrutModel& model);

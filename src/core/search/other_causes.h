@@ -39,7 +39,7 @@ inline double shareOfTurning(const Records& records, const HoldOut& held_out, co
   Eigen::MatrixXd strut(count, 3);
   for (Eigen::Index k = 0; k < count; ++k) {
     const StrutMotion& m = motion.motion().samples[k];
-    strut.row(k) << m.travel / motion.travel(), m.travel_rate / motion.travelRate(), m.body_acceleration;
+    strut.row(k) << m.travel / motion.scale().travel, m.travel_rate / motion.scale().travel_rate, m.body_acceleration;
   }
   const Eigen::VectorXd trained = joined(held_out.training);
   const Eigen::VectorXd judged = Eigen::VectorXd::Ones(count) - trained;

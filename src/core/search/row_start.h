@@ -8,7 +8,6 @@
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/search/screening.h"
 
 namespace suspension_health_monitor {
@@ -46,7 +45,6 @@ class RowStart {
     double samples = 0.0;
     for (const DriveSegment* segment : segments) samples += static_cast<double>(segment->size());
     std::vector<double> measured, weight;
-    double travel = 0.0, rate = 0.0;
     for (std::size_t s = 0; s < segments.size(); ++s) {
       const DriveSegment& segment = *segments[s];
       std::vector<double> relative = segment.driving;
@@ -61,16 +59,13 @@ class RowStart {
           measured.push_back(segment.sprung[k]);
           const bool is_whole = k >= first + segment.lead() && k + segment.lead() < end;  // what the filter reaches
           weight.push_back(is_whole ? held_out.training[s][k] : 0.0);
-          travel += square(motion.travel[k]);
-          rate += square(motion.travel_rate[k]);
         }
         motion_.ends.push_back(motion_.samples.size());
         taps_.push_back(segment.taps);
       }
     }
     const Eigen::Index count = motion_.samples.size();
-    scale_ = {std::sqrt(travel / static_cast<double>(count)), std::sqrt(rate / static_cast<double>(count)),
-              1.0 / std::sqrt(b0)};
+    scale_ = scaleOf(motion_, b0);
     Eigen::MatrixXd common = forcesAlong(fit.model, motion_);
     for (Eigen::Index j = 0; j < common.cols(); ++j) passLow(common.col(j));
     rows_ = WeightedProjection(common, Eigen::Map<const Eigen::VectorXd>(weight.data(), count),

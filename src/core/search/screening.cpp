@@ -80,7 +80,7 @@ std::vector<std::vector<double>> scanShapes(const ForceEffect& effect, const Mot
 }
 
 Screening::Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit)
-    : records_(records), response_(records, fit) {
+    : records_(records), fit_(fit), response_(records, fit) {
   Eigen::MatrixXd common = forcesAlong(fit.model, response_.motion());
   for (Eigen::Index j = 0; j < common.cols(); ++j) common.col(j) = response_.respond(common.col(j));
   const Eigen::VectorXd residual = joined(fit.residuals);
@@ -90,7 +90,7 @@ Screening::Screening(const Records& records, const HoldOut& held_out, const Mode
 ScreenedModel Screening::expect(const WeightedProjection::Columns& columns,
                                 const WeightedProjection::Part& part) const {
   const Eigen::VectorXd residual = rows_.target() - columns * part.coefficients - rows_.common() * part.common;
-  ScreenedModel screened{response_.fit().model, part.gain, split(residual, response_.motion().ends)};
+  ScreenedModel screened{fit_.model, part.gain, split(residual, response_.motion().ends)};
   StrutModel& model = screened.model;
   // A fit begins badly at a linear guess that is far away: b1 and b0 go half their size at most.
   const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };
@@ -101,27 +101,19 @@ ScreenedModel Screening::expect(const WeightedProjection::Columns& columns,
 }
 
 std::optional<ScreenedModel> Screening::screen(const ForceEffect& effect) const {
-  std::optional<WeightedProjection::Part> best;
-  std::vector<double> best_shapes;
-  Eigen::VectorXd best_column;
+  std::optional<ScreenedModel> best;
   bool acts = false;
-  const double natural_time = 1.0 / std::sqrt(response_.fit().model.stiffness_to_mass);
-  for (const std::vector<double>& shapes :
-       scanShapes(effect, {response_.travel(), response_.travelRate(), natural_time})) {
-    Eigen::VectorXd column = response_.respond(forceAlong(effect, shapes, response_.motion()));
+  for (const std::vector<double>& shapes : scanShapes(effect, response_.scale())) {
+    const Eigen::VectorXd column = response_.respond(forceAlong(effect, shapes, response_.motion()));
     const std::optional<WeightedProjection::Part> projection = rows_.project(column);
     acts = acts || projection;
     if (!projection || (effect.positive && !(projection->coefficients[0] > 0.0))) continue;
-    if (best && projection->gain <= best->gain) continue;
-    best = projection;
-    best_shapes = shapes;
-    best_column.swap(column);
+    if (best && projection->gain <= best->training_gain) continue;
+    best = expect(column, *projection);
+    best->model.effects.push_back({effect, projection->coefficients[0], shapes});
   }
-  if (!acts) return std::nullopt;
-  if (!best) return ScreenedModel{response_.fit().model, 0.0, response_.fit().residuals, FitFailure::kWrongSign};
-  ScreenedModel screened = expect(best_column, *best);
-  screened.model.effects.push_back({effect, best->coefficients[0], best_shapes});
-  return screened;
+  if (acts && !best) return ScreenedModel{fit_.model, 0.0, fit_.residuals, FitFailure::kWrongSign};
+  return best;
 }
 
 std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) const {
@@ -141,7 +133,7 @@ std::optional<ScreenedModel> Screening::screen(const MeasurementEffect& effect) 
 }
 
 std::optional<ScreenedModel> Screening::asItIs(const StrutModel& model) const {
-  std::optional<Residuals> residuals = freeRunResiduals(model, segmentsOf(records_), response_.fit().initial);
+  std::optional<Residuals> residuals = freeRunResiduals(model, segmentsOf(records_), fit_.initial);
   if (!residuals) return std::nullopt;
   const double gain = rows_.weight().dot(rows_.target().cwiseAbs2() - joined(*residuals).cwiseAbs2());
   return ScreenedModel{model, gain, std::move(*residuals)};
@@ -157,7 +149,7 @@ double Screening::surfaceGain() const {
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n, kForceNodes * kForceNodes);
   for (Eigen::Index k = 0; k < n; ++k) {
     const StrutMotion& m = response_.motion().samples[k];
-    forHatsAt(m.travel / response_.travel(), m.travel_rate / response_.travelRate(), kForceNodes,
+    forHatsAt(m.travel / response_.scale().travel, m.travel_rate / response_.scale().travel_rate, kForceNodes,
               [&](int node, double value) { forces(k, node) = value; });
   }
   Eigen::MatrixXd columns(rows, forces.cols());

@@ -1,17 +1,19 @@
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
-bool PeriodMeasurement::add(std::size_t stream, Stamp stamp) {
+std::optional<RejectReason> PeriodMeasurement::add(std::size_t stream, Stamp stamp) {
   Stream& its = streams_[stream];
-  if (its.last == stamp) return false;
-  if (is_required_[stream] && its.last && stamp > *its.last) its.spacings.push_back(stamp - *its.last);
-  its.last = stamp;
-  return true;
+  const std::optional<Stamp> before = std::exchange(its.last, stamp);
+  if (before == stamp) return stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp;
+  if (before && stamp < *before) return RejectReason::kTimeWentBack;
+  if (is_required_[stream] && before) its.spacings.push_back(stamp - *before);
+  return std::nullopt;
 }
 
 std::optional<double> PeriodMeasurement::period() const {

@@ -19,7 +19,7 @@ const double kConvincing = std::log(1e3);                     // likelihood rati
 void SamplingTest::add(double value, double off) {
   values_.push(value);
   off_.push(off);
-  if (++in_a_row_ < kWindow) return;
+  if (!values_.full()) return;
   double mean = 0.0, e = 0.0, r = 0.0;
   for (std::size_t i = 0; i < kDifference.size(); ++i) mean += off_.window()[kReach + i];
   mean /= kDifference.size();

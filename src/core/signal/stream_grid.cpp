@@ -51,46 +51,6 @@ void AlignmentJudge::judge(Outcomes& outcomes) {
   outcomes.apart = {};
 }
 
-GridStreams::GridStreams(Stamp period, const std::vector<StreamOptions>& options) {
-  const auto reference =
-      std::find_if(options.begin(), options.end(), [](const StreamOptions& o) { return o.required; });
-  if (reference == options.end()) throw std::invalid_argument("of the streams of a grid at least one must be required");
-  reference_ = reference - options.begin();
-  std::size_t sensors = 0;
-  streams_.reserve(options.size());
-  for (const StreamOptions& each : options) {
-    streams_.emplace_back(period, each);
-    sensors = std::max(sensors, each.sensor + 1);
-  }
-  sensor_is_still_.resize(sensors);
-}
-
-bool GridStreams::areWaiting() const {
-  return std::none_of(streams_.begin(), streams_.end(),
-                      [](const GridStream& stream) { return stream.options.required && stream.waiting.empty(); });
-}
-
-bool GridStreams::mayStillCome(GridStream& optional) const {
-  const ReadingQueue& waiting = streams_[reference_].waiting;
-  const Stamp lag = waiting.empty() ? Stamp::zero() : waiting.back().stamp - waiting.front().stamp;
-  if (waiting.full() || lag > kMostOptionalLag) optional.is_silent = true;
-  return !optional.is_silent;
-}
-
-bool GridStreams::rejectStuck() {
-  std::fill(sensor_is_still_.begin(), sensor_is_still_.end(), true);
-  const auto isCompared = [](const GridStream& stream) { return stream.options.required && !stream.options.is_force; };
-  for (const GridStream& stream : streams_)
-    if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
-  bool stand_still = false, move = false;
-  for (const GridStream& stream : streams_)
-    if (isCompared(stream)) (sensor_is_still_[stream.options.sensor] ? stand_still : move) = true;
-  if (!stand_still || !move) return false;
-  for (GridStream& stream : streams_)
-    if (isCompared(stream) && sensor_is_still_[stream.options.sensor]) stream.rejected.add(RejectReason::kStuck);
-  return true;
-}
-
 namespace {
 
 // Before the conversion to whole nanoseconds, which is undefined for NaN and what does not fit.
@@ -99,17 +59,30 @@ Stamp checked(double period) {
   return fromSeconds(period);
 }
 
+std::size_t referenceOf(const std::vector<StreamOptions>& streams) {
+  const auto reference =
+      std::find_if(streams.begin(), streams.end(), [](const StreamOptions& o) { return o.required; });
+  if (reference == streams.end()) throw std::invalid_argument("of the streams of a grid at least one must be required");
+  return static_cast<std::size_t>(reference - streams.begin());
+}
+
 }  // namespace
 
 StreamGrid::StreamGrid(double period, const std::vector<StreamOptions>& streams, Alignment alignment, int fill_samples)
     : period_(checked(period)),
-      resamples_(alignment == Alignment::kResampled),
-      streams_(period_, streams),
-      paired_(period_, alignment == Alignment::kAuto
-                           ? std::optional<AlignmentJudge>(std::in_place, period_, fill_samples, streams.size())
-                           : std::nullopt),
-      resampled_(period_, streams.size()),
-      instant_{{}, std::vector<double>(streams.size()), std::vector<bool>(streams.size())} {}
+      never_pairs_(alignment == Alignment::kResampled),
+      reference_(referenceOf(streams)),
+      resamplers_(streams.size(), StreamResampler(period_)),
+      instant_{{}, std::vector<double>(streams.size()), std::vector<bool>(streams.size())} {
+  if (alignment == Alignment::kAuto) judge_.emplace(period_, fill_samples, streams.size());
+  std::size_t sensors = 0;
+  streams_.reserve(streams.size());
+  for (const StreamOptions& each : streams) {
+    streams_.push_back({each, StreamGate(period_, each.is_force)});
+    sensors = std::max(sensors, each.sensor + 1);
+  }
+  sensor_is_still_.resize(sensors);
+}
 
 const GridInstant* StreamGrid::push(std::size_t stream, Stamp stamp, double value) {
   GridStream& its = streams_[stream];
@@ -127,12 +100,8 @@ const GridInstant* StreamGrid::push(std::size_t stream, Stamp stamp, double valu
 }
 
 const GridInstant* StreamGrid::next() {
-  if (!resamples_) {
-    const bool found = paired_.next(streams_, instant_);
-    resamples_ = paired_.verdict() != AlignmentJudge::Verdict::kDoesWell;
-    if (found) return &instant_;
-  }
-  return resamples_ && resampled_.next(streams_, instant_) ? &instant_ : nullptr;
+  if (!resamples() && pairNext()) return &instant_;
+  return resamples() && resampleNext() ? &instant_ : nullptr;
 }
 
 // Its readings have waited in vain for those of a sensor that is silent.
@@ -146,10 +115,44 @@ void StreamGrid::dropOldest(GridStream& full) {
 
 // @param first  the stream whose clock went back before those of the others.
 void StreamGrid::startNewSeries(std::size_t first) {
-  paired_.startNewSeries(streams_);
-  resampled_.startNewSeries();
-  for (std::size_t i = 0; i < streams_.size(); ++i)
+  if (judge_) judge_->startNewSeries();
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    while (!streams_[i].waiting.empty()) streams_[i].drop();
+    resamplers_[i].clear();
     if (i != first) streams_[i].gate.startNewSeries();
+  }
+  origin_.reset();
+  next_.reset();
+}
+
+// @return true if a reading of every required stream waits.
+bool StreamGrid::areWaiting() const {
+  return std::none_of(streams_.begin(), streams_.end(),
+                      [](const GridStream& stream) { return stream.options.required && stream.waiting.empty(); });
+}
+
+// Whether an optional stream, none of whose readings has come, is to be waited for.
+bool StreamGrid::mayStillCome(GridStream& optional) const {
+  const ReadingQueue& waiting = streams_[reference_].waiting;
+  const Stamp lag = waiting.empty() ? Stamp::zero() : waiting.back().stamp - waiting.front().stamp;
+  if (waiting.full() || lag > kMostOptionalLag) optional.is_silent = true;
+  return !optional.is_silent;
+}
+
+// Compares GridStream::is_still of the required ones that are no forces.
+// @return true if some sensors stand still while others move, which is then counted for those that are still.
+bool StreamGrid::rejectStuck() {
+  std::fill(sensor_is_still_.begin(), sensor_is_still_.end(), true);
+  const auto isCompared = [](const GridStream& stream) { return stream.options.required && !stream.options.is_force; };
+  for (const GridStream& stream : streams_)
+    if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
+  bool stand_still = false, move = false;
+  for (const GridStream& stream : streams_)
+    if (isCompared(stream)) (sensor_is_still_[stream.options.sensor] ? stand_still : move) = true;
+  if (!stand_still || !move) return false;
+  for (GridStream& stream : streams_)
+    if (isCompared(stream) && sensor_is_still_[stream.options.sensor]) stream.rejected.add(RejectReason::kStuck);
+  return true;
 }
 
 double StreamGrid::longestPeriod() const {

@@ -46,9 +46,14 @@ void SmoothingSpline::add(double position, double value) {
   }
 }
 
-// Eliminates the oldest open coefficient, and opens the one after the newest.
+// Closes the oldest open coefficient, and opens the one after the newest.
 void SmoothingSpline::closeOldest() {
-  Closed& closed = closed_[place(oldest_open_++)];
+  eliminateOldest(closed_[place(oldest_open_++)]);
+  penaliseNewest();
+}
+
+// From the equations of those after it, which move up.
+void SmoothingSpline::eliminateOldest(Closed& closed) {
   const double pivot = matrix_[0][0], inverse = 1.0 / pivot;
   closed.value = right_[0] * inverse;
   for (int i = 1; i < kOpen; ++i) {
@@ -59,32 +64,21 @@ void SmoothingSpline::closeOldest() {
   }
   matrix_[kOpen - 1] = {};
   right_[kOpen - 1] = 0.0;
-  penaliseNewest();
 }
 
 void SmoothingSpline::solve(std::int64_t first, std::int64_t settled) {
-  auto matrix = matrix_;
-  auto x = right_;
-  for (int k = 0; k < kOpen; ++k) {
-    const double inverse = matrix[k][k] = 1.0 / matrix[k][k];
-    for (int i = k + 1; i < kOpen; ++i) {
-      const double factor = matrix[i][k] * inverse;
-      for (int j = k + 1; j <= i; ++j) matrix[i][j] -= factor * matrix[j][k];
-      x[i] -= factor * x[k];
-    }
-  }
-  for (int k = kOpen; k-- > 0;) {
-    for (int i = k + 1; i < kOpen; ++i) x[k] -= matrix[i][k] * x[i];
-    x[k] *= matrix[k][k];
-    store(oldest_open_ + k, x[k]);
-  }
-  double next = x[0], second = x[1], third = x[2], fourth = x[3];
-  for (std::int64_t k = oldest_open_ - 1; k >= std::max(first, settled_ + 1); --k) {
+  const auto matrix = matrix_;
+  const auto right = right_;
+  for (int k = 0; k < kOpen; ++k) eliminateOldest(closed_[place(oldest_open_ + k)]);
+  matrix_ = matrix;  // they stay open
+  right_ = right;
+  double next = 0.0, second = 0.0, third = 0.0, fourth = 0.0;
+  for (std::int64_t k = oldest_open_ + kOpen - 1; k >= std::max(first, settled_ + 1); --k) {
     const Closed& closed = closed_[place(k)];
     const double coefficient = closed.value - closed.factors[0] * next - closed.factors[1] * second -
                                closed.factors[2] * third - closed.factors[3] * fourth;
     fourth = std::exchange(third, std::exchange(second, std::exchange(next, coefficient)));
-    store(k, coefficient);
+    coefficients_[place(k)] = coefficients_[place(k) + kKept] = coefficient;
   }
   settled_ = std::max(settled_, settled);
 }

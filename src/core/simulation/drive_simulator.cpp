@@ -10,7 +10,9 @@ DriveSimulator::DriveSimulator(const SimulationOptions& options)
                  RandomPurpose::kUnsprungTiming}},
       road_(options, Accelerometer::Place::kRoad),
       sway_(options),
-      sway_sensor_(options),
+      sway_noise_{options.body_acceleration > 0.0 ? options.noise : 0.0,
+                  options.body_rate > 0.0 ? options.gyro_noise : 0.0},
+      sway_random_(options.seed, RandomPurpose::kSwayNoise),
       faults_(SimulatedFaults::from(options.hidden_faults)),
       now_(scenario_.driven, {scenario_.road}, 1.0 / fasterRate(options)),
       delayed_(now_) {}
@@ -29,7 +31,7 @@ std::optional<DriveSample> DriveSimulator::next() {
   if (body_reads) {
     const Sway sway = sway_.at(t);
     sample.sprung = sprung_.accelerometer.read(t, readBody(t, sway));
-    sample.body = sway_sensor_.read(sway);
+    sample.body = withNoise(sway);
     sprung_.schedule.advance();
   }
   if (wheel_reads) {
@@ -45,6 +47,16 @@ std::optional<DriveSample> DriveSimulator::next() {
     sample.body = {};
   }
   return sample;
+}
+
+Sway DriveSimulator::withNoise(Sway sway) {
+  const auto add = [this](std::array<double, 2>& values, double noise) {
+    if (noise == 0.0) return;  // no number is drawn, so that other settings keep theirs
+    for (double& value : values) value += noise * sway_random_.gaussian();
+  };
+  add(sway.acceleration, sway_noise_[0]);
+  add(sway.angular_rate, sway_noise_[1]);
+  return sway;
 }
 
 double DriveSimulator::readBody(double t, const Sway& sway) {

@@ -15,13 +15,6 @@ constexpr std::array kNoise{RandomPurpose::kSprungNoise, RandomPurpose::kUnsprun
 constexpr std::array kDelivery{RandomPurpose::kSprungDelivery, RandomPurpose::kUnsprungDelivery,
                                RandomPurpose::kRoadDelivery};
 
-std::mt19937_64 seeded(int seed, RandomPurpose purpose, unsigned index) {
-  std::vector<unsigned> numbers{static_cast<unsigned>(seed), static_cast<unsigned>(purpose)};
-  if (index != 0) numbers.push_back(index);
-  std::seed_seq sequence(numbers.begin(), numbers.end());
-  return std::mt19937_64(sequence);
-}
-
 }  // namespace
 
 BodySway::BodySway(const SimulationOptions& options) {
@@ -93,21 +86,6 @@ double Accelerometer::drawNoise() {
   return noise_ * std::sqrt(3.0) * (2.0 * noise_random_.uniform() - 1.0);
 }
 
-SwaySensor::SwaySensor(const SimulationOptions& options)
-    : acceleration_noise_(options.body_acceleration > 0.0 ? options.noise : 0.0),
-      rate_noise_(options.body_rate > 0.0 ? options.gyro_noise : 0.0),
-      random_(options.seed, RandomPurpose::kSwayNoise) {}
-
-Sway SwaySensor::read(Sway sway) {
-  const auto add = [this](std::array<double, 2>& values, double noise) {
-    if (noise == 0.0) return;  // no number is drawn, so that other settings keep theirs
-    for (double& value : values) value += noise * random_.gaussian();
-  };
-  add(sway.acceleration, acceleration_noise_);
-  add(sway.angular_rate, rate_noise_);
-  return sway;
-}
-
 SimulatedFaults SimulatedFaults::from(const std::vector<ActiveMeasurementEffect>& hidden) {
   SimulatedFaults faults;
   const std::map<std::string, std::vector<double*>> known{{"accelerometer_bias", {&faults.bias}},
@@ -137,7 +115,12 @@ double SimulatedFaults::read(double acceleration, const Sway& sway) const {
   return (1.0 + gain_error) * (here + tilt[0] * sway.acceleration[0] + tilt[1] * sway.acceleration[1]) + bias;
 }
 
-RandomStream::RandomStream(int seed, RandomPurpose purpose, unsigned index) : engine_(seeded(seed, purpose, index)) {}
+RandomStream::RandomStream(int seed, RandomPurpose purpose, unsigned index) {
+  std::vector<unsigned> numbers{static_cast<unsigned>(seed), static_cast<unsigned>(purpose)};
+  if (index != 0) numbers.push_back(index);
+  std::seed_seq sequence(numbers.begin(), numbers.end());
+  engine_.seed(sequence);
+}
 
 double RandomStream::uniform() {
   // The upper 53 bits fill a double's mantissa exactly.

@@ -66,10 +66,10 @@ bool Vehicle::rolls() const {
   return std::any_of(struts.begin(), struts.end(), [](const VehicleStrut& strut) { return strut.y != 0.0; });
 }
 
-double Vehicle::mobility(double x, double y, double x_force, double y_force) const {
+double Vehicle::mobility(const VehicleStrut& at, const VehicleStrut& of) const {
   double sum = 1.0 / mass;
-  if (pitches()) sum += x * x_force / pitch_inertia;
-  if (rolls()) sum += y * y_force / roll_inertia;
+  if (pitches()) sum += at.x * of.x / pitch_inertia;
+  if (rolls()) sum += at.y * of.y / roll_inertia;
   return sum;
 }
 
@@ -107,15 +107,14 @@ Vehicle onStruts(Vehicle body, const std::vector<VehicleStrut>& struts) {
 }
 
 /// @param front, rear  the struts on the left; those on the right are alike.
-Vehicle onFourWheels(const Vehicle& body, const VehicleStrut& front, const VehicleStrut& rear) {
-  std::vector<VehicleStrut> struts;
+Vehicle onFourWheels(Vehicle body, const VehicleStrut& front, const VehicleStrut& rear) {
   for (const VehicleStrut& left : {front, rear})
     for (const double side : {1.0, -1.0}) {
-      struts.push_back(left);
-      struts.back().name += side > 0.0 ? "_left" : "_right";
-      struts.back().y *= side;
+      VehicleStrut& strut = body.struts.emplace_back(left);
+      strut.name += side > 0.0 ? "_left" : "_right";
+      strut.y *= side;
     }
-  return onStruts(body, struts);
+  return body;
 }
 
 // Plausible numbers of our own: every strut by itself 1.3 to 2.5 Hz with a damping ratio of 0.22 to 0.35, wheel hop 9

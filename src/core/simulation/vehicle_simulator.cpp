@@ -44,6 +44,18 @@ RoadLine lineUnder(const VehicleStrut& strut, const std::string& tracks) {
   return {0.0, strut.y > 0.0 ? 0U : strut.y < 0.0 ? 1U : 2U};
 }
 
+// Accelerometers, whose clocks are right.
+SimulationOptions sensorsOf(const VehicleDriveOptions& drive) {
+  SimulationOptions sensors;
+  sensors.duration = drive.duration;
+  sensors.seed = drive.seed;
+  sensors.noise = drive.noise;
+  sensors.gaussian_noise = true;
+  sensors.dropout = drive.dropout;
+  sensors.stamp_jitter = drive.stamp_jitter;
+  return sensors;
+}
+
 template <class Settings>
 const Settings& checked(const Settings& settings) {
   validate(settings);
@@ -91,32 +103,23 @@ VehicleSimulator::VehicleSimulator(const Vehicle& vehicle, const VehicleDriveOpt
       options_(checked(options)),
       motion_(vehicle_, tracksOf(vehicle_, options.tracks, options.seed), 1.0 / options.rate,
               signalsOf(vehicle_, options.seed)),
-      body_(sensorAt(Accelerometer::Place::kSprung, 0)),
+      schedule_(options.rate, 0.0, sensorsOf(options), RandomPurpose::kSprungTiming),
+      body_(sensorsOf(options), Accelerometer::Place::kSprung),
       body_noise_(options.seed, RandomPurpose::kSwayNoise),
       gyro_noise_(options.seed, RandomPurpose::kGyroNoise),
       force_noise_(options.seed, RandomPurpose::kKnownForceNoise) {
-  for (std::size_t i = 0; i < vehicle_.struts.size(); ++i) {
-    sprung_.push_back(sensorAt(Accelerometer::Place::kSprung, i + 1));
-    unsprung_.push_back(sensorAt(Accelerometer::Place::kUnsprung, i + 1));
+  const SimulationOptions sensors = sensorsOf(options);
+  for (unsigned i = 1; i <= vehicle_.struts.size(); ++i) {
+    sprung_.emplace_back(sensors, Accelerometer::Place::kSprung, i);
+    unsprung_.emplace_back(sensors, Accelerometer::Place::kUnsprung, i);
   }
 }
 
-Accelerometer VehicleSimulator::sensorAt(Accelerometer::Place place, std::size_t index) const {
-  SimulationOptions sensor;
-  sensor.seed = options_.seed;
-  sensor.noise = options_.noise;
-  sensor.gaussian_noise = true;
-  sensor.dropout = options_.dropout;
-  sensor.stamp_jitter = options_.stamp_jitter;
-  return {sensor, place, static_cast<unsigned>(index)};
-}
-
 std::optional<VehicleInstant> VehicleSimulator::next() {
-  const auto k = static_cast<double>(index_);
-  // A duration that is a whole number of periods must not lose its last sample to rounding.
-  if (k > options_.duration * options_.rate + 1e-6) return std::nullopt;
-  ++index_;
-  const double t = k / options_.rate;
+  const std::optional<double> next = schedule_.next();
+  if (!next) return std::nullopt;
+  schedule_.advance();
+  const double t = *next;
   motion_.advance(t);
 
   VehicleInstant sample;

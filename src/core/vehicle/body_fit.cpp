@@ -41,27 +41,18 @@ std::vector<StrutPair> pairsOf(const StrutPlaces& places) {
   return pairs;
 }
 
-BodyFit::BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs) : pairs_(pairs) {
-  const std::size_t n = places.size();
-  Eigen::Matrix2Xd xy(2, n);
-  for (std::size_t i = 0; i < n; ++i) xy.col(i) << places[i][0], places[i][1];
+BodyFit::BodyFit(std::size_t n, const StrutPlaces& places) : q_(Eigen::MatrixXd::Identity(n, n)) {
+  if (places.empty()) return;
+  const Eigen::Map<const Eigen::Matrix2Xd> xy(places.front().data(), 2, n);
   const Eigen::VectorXd x = scaled(xy.row(0), middle_[0], scale_[0]), y = scaled(xy.row(1), middle_[1], scale_[1]);
   // Two struts, or all on one line, do not see the body turn about that line.
   Eigen::MatrixXd q(n, 3);
   q << Eigen::VectorXd::Ones(n), x, y;
   sees_pitch_ = scale_[0] > kVehicleTuning.smallest_spread;
   sees_roll_ = scale_[1] > kVehicleTuning.smallest_spread && rankOf(q) == (sees_pitch_ ? 3 : 2);
-  q_.resize(n, 1 + (sees_pitch_ ? 1 : 0) + (sees_roll_ ? 1 : 0));
-  q_.col(0).setOnes();
-  if (sees_pitch_) q_.col(1) = x;
-  if (sees_roll_) q_.rightCols<1>() = y;
-  if (!sees_roll_) pairs_.clear();
-}
-
-BodyFit::BodyFit(std::size_t struts) : q_(Eigen::MatrixXd::Identity(struts, struts)) {}
-
-BodyFit BodyFit::of(std::size_t struts, const StrutPlaces& places) {
-  return places.empty() ? BodyFit(struts) : BodyFit(places, pairsOf(places));
+  if (!sees_pitch_) q.col(1) = y;
+  q_ = q.leftCols(1 + (sees_pitch_ ? 1 : 0) + (sees_roll_ ? 1 : 0));
+  if (sees_roll_) pairs_ = pairsOf(places);
 }
 
 std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
@@ -232,10 +223,10 @@ BodyFitResult BodyFit::describe(const Solution& solution) const {
       if (body.numBars(kind) == 0) return Measured{0.0, 0.0};
       return measured([&](const Parameters& p) { return mobility(p)(i, i) * p[body.firstBar(kind) + b]; });
     };
-    const auto atBoth = [&](int kind) {
-      return std::array<Measured, 2>{atStrut(pairs_[b].first, kind), atStrut(pairs_[b].second, kind)};
-    };
-    const BodyFitResult::Bar bar{pairs_[b], atBoth(RigidBody::kStiffness), atBoth(RigidBody::kDamping)};
+    const auto [i, j] = pairs_[b];
+    const BodyFitResult::Bar bar{pairs_[b],
+                                 {atStrut(i, RigidBody::kStiffness), atStrut(j, RigidBody::kStiffness)},
+                                 {atStrut(i, RigidBody::kDamping), atStrut(j, RigidBody::kDamping)}};
     if (isProven(bar.stiffness[0])) result.found.push_back(bar);
   }
   const auto numberOf = [&](int i, bool is_seen) {

@@ -33,66 +33,48 @@ struct LinearFit {
 };
 
 /// Least squares of one IMU's signal by terms with real parameters, in the frequency domain.
-class SpectralFit {
- public:
-  SpectralFit(const std::vector<Eigen::MatrixXcd>& spectra, const BlockBand& band) : spectra_(spectra) {
-    s_.resize(spectra.size());
-    for (Index k = 0; k < s_.size(); ++k) s_[k] = {0.0, band.omega(band.first + static_cast<int>(k))};
+/// @param spectra  by bin.  @param bins  the first ones, that are used.
+LinearFit fitSignal(const std::vector<Eigen::MatrixXcd>& spectra, const Term& output, const std::vector<Term>& terms,
+                    Index bins) {
+  const std::size_t n = terms.size();
+  Eigen::ArrayXd power(bins);
+  for (Index k = 0; k < bins; ++k) power[k] = spectra[k](output.signal, output.signal).real();
+  // Every bin counts by its share of the motion, those that are nearly silent by less.
+  const Eigen::ArrayXd weight = (power + power.mean()).inverse();
+  const auto product = [&](const Term& a, const Term& b) {
+    double sum = 0.0;
+    for (Index k = kSkipped; k < bins; ++k)
+      sum += weight[k] * (std::conj(a.weight[k]) * b.weight[k] * spectra[k](b.signal, a.signal)).real();
+    return sum;
+  };
+  Eigen::MatrixXd normal(n, n);
+  Eigen::VectorXd right(n);
+  for (std::size_t p = 0; p < n; ++p) {
+    right[p] = product(terms[p], output);
+    for (std::size_t q = 0; q <= p; ++q) normal(p, q) = normal(q, p) = product(terms[p], terms[q]);
   }
-
-  const Eigen::ArrayXcd& s() const { return s_; }
-
-  /// @param bins  the first ones, that are used.
-  LinearFit operator()(const Term& output, const std::vector<Term>& terms, Index bins) const {
-    const std::size_t n = terms.size();
-    Eigen::ArrayXd power(bins);
-    for (Index k = 0; k < bins; ++k) power[k] = spectra_[k](output.signal, output.signal).real();
-    // Every bin counts by its share of the motion, those that are nearly silent by less.
-    const Eigen::ArrayXd weight = (power + power.mean()).inverse();
-    const auto product = [&](const Term& a, const Term& b) {
-      double sum = 0.0;
-      for (Index k = kSkipped; k < bins; ++k)
-        sum += weight[k] * (std::conj(a.weight[k]) * b.weight[k] * spectra_[k](b.signal, a.signal)).real();
-      return sum;
-    };
-    Eigen::MatrixXd normal(n, n);
-    Eigen::VectorXd right(n);
-    for (std::size_t p = 0; p < n; ++p) {
-      right[p] = product(terms[p], output);
-      for (std::size_t q = 0; q <= p; ++q) normal(p, q) = normal(q, p) = product(terms[p], terms[q]);
-    }
-    const Eigen::VectorXd scale = normal.diagonal().cwiseMax(kTiny).cwiseSqrt().cwiseInverse();
-    LinearFit fit;
-    fit.parameters = scale.asDiagonal() * solveSymmetric(scale.asDiagonal() * normal * scale.asDiagonal(),
-                                                         Eigen::MatrixXd(scale.cwiseProduct(right)));
-    fit.unexplained = 1.0 - fit.parameters.dot(right) / product(output, output);
-    return fit;
-  }
-
- private:
-  const std::vector<Eigen::MatrixXcd>& spectra_;
-  Eigen::ArrayXcd s_;
-};
+  const Eigen::VectorXd scale = normal.diagonal().cwiseMax(kTiny).cwiseSqrt().cwiseInverse();
+  LinearFit fit;
+  fit.parameters = scale.asDiagonal() * solveSymmetric(scale.asDiagonal() * normal * scale.asDiagonal(),
+                                                       Eigen::MatrixXd(scale.cwiseProduct(right)));
+  fit.unexplained = 1.0 - fit.parameters.dot(right) / product(output, output);
+  return fit;
+}
 
 /// What the wheels make of one signal.
 struct Response {
-  std::vector<std::size_t> wheels;
-  std::vector<double> damping;  // b1 of each wheel [1/s]
-  std::vector<double> worth;    // share of the motion that is unexplained without it
+  // By IMU, 0 if it is no wheel:
+  Eigen::ArrayXd damping;  // b1 [1/s]
+  Eigen::ArrayXd worth;    // share of the motion that is unexplained without it
   double explained = 0.0, delay = 0.0;
-
-  double dampingOf(std::size_t wheel) const {
-    const std::size_t place = std::find(wheels.begin(), wheels.end(), wheel) - wheels.begin();
-    return place < wheels.size() ? damping[place] : 0.0;
-  }
 };
 
 class Pairing {
  public:
   Pairing(const ImuSignals& signals, const std::vector<double>& rates)
-      : signals_(signals), fit_(signals.spectra, signals.band), rates_(rates), shake_(signals.imus, 0.0) {
+      : signals_(signals), rates_(rates), shake_(signals.imus, 0.0) {
     for (std::size_t k = 0; k < signals.spectra.size(); ++k)
-      if (signals.band.omega(signals.band.first + static_cast<int>(k)) >= 2.0 * M_PI * kShake)
+      if (signals.s[k].imag() >= 2.0 * M_PI * kShake)
         for (std::size_t i = 0; i < shake_.size(); ++i) shake_[i] += signals.spectra[k](i, i).real();
   }
 
@@ -104,7 +86,7 @@ class Pairing {
 
   /// @return how a signal moves over wheels.
   Response respond(std::size_t signal, const std::vector<std::size_t>& wheels) const {
-    Response best{wheels, std::vector<double>(wheels.size()), std::vector<double>(wheels.size())};
+    Response best{Eigen::ArrayXd::Zero(signals_.imus), Eigen::ArrayXd::Zero(signals_.imus)};
     if (wheels.empty()) return best;
     LinearFit nearest;
     for (double tried = -kFarthestDelay; tried < kFarthestDelay + kDelayStep / 2.0; tried += kDelayStep) {
@@ -117,10 +99,10 @@ class Pairing {
     const double alone = fit(signal, {}, best.delay).unexplained;
     best.explained = 1.0 - nearest.unexplained / alone;
     for (std::size_t j = 0; j < wheels.size(); ++j) {
-      best.damping[j] = nearest.parameters[2 + 2 * j];
+      best.damping[wheels[j]] = nearest.parameters[2 + 2 * j];
       std::vector<std::size_t> others = wheels;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-      best.worth[j] = (fit(signal, others, best.delay).unexplained - nearest.unexplained) / alone;
+      best.worth[wheels[j]] = (fit(signal, others, best.delay).unexplained - nearest.unexplained) / alone;
     }
     return best;
   }
@@ -135,17 +117,16 @@ class Pairing {
 
  private:
   LinearFit fit(std::size_t signal, const std::vector<std::size_t>& wheels, double delay) const {
-    const Eigen::ArrayXcd &s = fit_.s(), late = (s * delay).exp();
+    const Eigen::ArrayXcd &s = signals_.s, late = (s * delay).exp();
     std::vector<Term> terms{{signal, -late / s}, {signal, -late / s.square()}};
     for (const std::size_t wheel : wheels) {
       terms.push_back({wheel, s.inverse()});
       terms.push_back({wheel, s.square().inverse()});
     }
-    return fit_({signal, late}, terms, bins(signal, wheels));
+    return fitSignal(signals_.spectra, {signal, late}, terms, bins(signal, wheels));
   }
 
   const ImuSignals& signals_;
-  SpectralFit fit_;
   std::vector<double> rates_;
   std::vector<double> shake_;  // power above kShake
 };
@@ -172,11 +153,8 @@ std::vector<std::optional<Response>> findBodies(const Pairing& pairing) {
 /// @return b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
 Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies, std::size_t imus) {
   Eigen::MatrixXd push = Eigen::MatrixXd::Zero(bodies.size(), imus);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i]) continue;
-    for (std::size_t j = 0; j < bodies[i]->wheels.size(); ++j)
-      if (bodies[i]->worth[j] > kWorthHaving) push(i, bodies[i]->wheels[j]) = bodies[i]->damping[j];
-  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i]) push.row(i) = (bodies[i]->worth > kWorthHaving).select(bodies[i]->damping, 0.0).matrix().transpose();
   return push;
 }
 
@@ -215,15 +193,14 @@ bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairi
   Eigen::MatrixXcd signals = Eigen::MatrixXcd::Identity(imus + pairs.size(), imus);
   std::vector<Eigen::MatrixXcd> all;
   for (const Eigen::MatrixXcd& each : given.spectra) {
-    const double omega = given.band.omega(given.band.first + static_cast<int>(all.size()));
+    const std::complex<double> s = given.s[all.size()];
     for (std::size_t j = 0; j < pairs.size(); ++j) {
       signals(imus + j, pairs[j].wheel) = pairs[j].is_reversed ? -1.0 : 1.0;
-      signals(imus + j, pairs[j].body) = -std::polar(1.0, omega * pairs[j].delay);
+      signals(imus + j, pairs[j].body) = -std::exp(s * pairs[j].delay);
     }
     all.emplace_back(signals * each * signals.adjoint());
   }
-  const SpectralFit fit(all, given.band);
-  const Eigen::ArrayXcd &s = fit.s(), late = (s * pair.delay).exp();
+  const Eigen::ArrayXcd &s = given.s, late = (s * pair.delay).exp();
   std::vector<Term> terms{{pair.body, -s * late}};
   std::size_t own = 0;
   std::vector<std::size_t> wheels;
@@ -233,7 +210,7 @@ bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairi
     terms.push_back({imus + j, s.inverse()});
     terms.push_back({imus + j, s.square().inverse()});
   }
-  const LinearFit found = fit({pair.body, late}, terms, pairing.bins(pair.body, wheels));
+  const LinearFit found = fitSignal(all, {pair.body, late}, terms, pairing.bins(pair.body, wheels));
   pair.delay += found.parameters[0];
   pair.damping_to_mass = found.parameters[own];
   pair.stiffness_to_mass = found.parameters[own + 1];
@@ -253,8 +230,9 @@ std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const
     const std::optional<std::size_t> signal = bodyOver(wheel, push, signals, bodies);
     if (!signal) continue;
     const std::size_t body = signals.owners[*signal];
+    if (!bodies[body]) continue;  // a wheel that turns a body whose motion up no wheel explains
     // Of a wheel that was found by how it turns the body, too: which way it pushes is known better than how hard.
-    const bool is_reversed = bodies[body]->dampingOf(wheel) < 0.0;
+    const bool is_reversed = bodies[body]->damping[wheel] < 0.0;
     all.push_back({body, wheel, is_reversed, true, bodies[body]->explained, 0.0, 0.0, bodies[body]->delay});
     ++served[body];
   }

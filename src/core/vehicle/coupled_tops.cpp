@@ -108,7 +108,7 @@ std::array<double, 3> VehicleSpectra::bodyPowers(long half) {
 }
 
 CoupledTops::CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces)
-    : modulation_(band), s_(modulation_.s()), lu_(struts) {
+    : s_(Modulation(band).s()), lu_(struts) {
   rows_ = {Eigen::MatrixXd::Zero(struts, struts), Eigen::MatrixXd::Zero(struts, struts),
            Eigen::MatrixXd::Zero(struts, forces)};
   wheels_.setZero(s_.size(), struts);
@@ -137,38 +137,32 @@ const std::vector<WheelNoise>& CoupledTops::wheelNoise(std::size_t strut, const 
   const BlockColumns& columns = equations.columns();
   const auto n = static_cast<std::size_t>(wheels_.cols());
   const double b1 = rows_.rate(strut, strut), b0 = rows_.travel(strut, strut);
-  const auto columnOf = [&](std::size_t j) {
-    return j == strut ? int{kBlockDamping} : columns.firstNeighbour() + neighbourColumn(strut, j);
-  };
   noise_.assign(bands.count(), {BlockMatrix::Zero(columns.numParameters(), columns.numParameters()), 0.0});
   for (int band = 0; band < bands.count(); ++band) {
     WheelNoise& noise = noise_[band];
-    BlockMatrix& sum = noise.information;
     for (int bin = bands.first(band); bin < bands.first(band) + bands.size(band); ++bin) {
       const std::complex<double> s = s_[bin];
-      const double a2 = std::norm(s * s + b1 * s + b0);
+      const Eigen::Vector2cd regressors(s, 1.0);
+      const Eigen::Matrix2cd products =
+          regressors.conjugate() * regressors.transpose() / std::norm(s * s + b1 * s + b0);
       const Small& follows = follows_[bin];
       for (std::size_t j = 0; j < n; ++j)
         noise.output += std::norm((j == strut ? 1.0 : 0.0) - follows(strut, j)) / bands.size(band);
       for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t j = 0; j < n; ++j) {
-          const std::complex<double> z = std::conj(follows(k, j));
-          const int row = columnOf(k), column = columnOf(j);
-          sum(row, column) += std::real(z) * std::norm(s) / a2;
-          sum(row + 1, column + 1) += std::real(z) / a2;
-          sum(row, column + 1) += std::real(z * std::conj(s)) / a2;
-          sum(row + 1, column) += std::real(z * s) / a2;
-        }
+        for (std::size_t j = 0; j < n; ++j)
+          noise.information.block<2, 2>(rateColumn(columns, strut, k), rateColumn(columns, strut, j)) +=
+              (std::conj(follows(k, j)) * products).real();
     }
   }
   return noise_;
 }
 
-void CoupledTops::predict(const std::vector<const StrutBlock*>& blocks, int first_force) {
+void CoupledTops::predict(const std::vector<BlockEstimator>& blocks, int age, int first_force) {
   const auto n = wheels_.cols();
-  for (Eigen::Index j = 0; j < n; ++j) modulation_.apply(0, blocks[j]->wheel, wheels_.col(j));
+  const Modulation& modulation = blocks.front().equations().undelayed();
+  for (Eigen::Index j = 0; j < n; ++j) modulation.apply(0, blocks[j].block(age).wheel, wheels_.col(j));
   for (Eigen::Index k = 0; k < forces_.cols(); ++k)
-    modulation_.apply(2, blocks.front()->forces.col(first_force + k), forces_.col(k));
+    modulation.apply(2, blocks.front().block(age).forces.col(first_force + k), forces_.col(k));
   SmallVector right(n), x(n);
   for (Eigen::Index b = 0; b < s_.size(); ++b) {
     // (s^2 I + Q) (X - Z) = s^2 X - s^2 c F

@@ -109,17 +109,15 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   out_ = recent_.front();
   ForceVector forces = out_.forces;
   for (std::size_t k = 0; k < force_means_.size(); ++k) forces[k] -= force_means_[k].mean();
-  std::array<StrutVector, kParts> parts;
-  parts.fill(StrutVector(out_.sprung.size()));
-  StrutVector stiffness(out_.sprung.size()), slow = stiffness;
+  Eigen::Matrix<double, Eigen::Dynamic, kParts + 1, Eigen::ColMajor, kMostStruts> parts(out_.sprung.size(), kParts + 1);
+  StrutVector stiffness(out_.sprung.size());
   for (std::size_t j = 0; j < struts_.size(); ++j) {
-    const Observed of_strut = filtered(struts_[j]);
-    for (const Part part : {kDamper, kSpring, kLaw}) parts[part][j] = of_strut[part];
-    slow[j] = out_.unsprung[j] - out_.sprung[j] - of_strut[kParts];
+    parts.row(j) = filtered(struts_[j]).transpose();
     stiffness[j] = struts_[j].model.stiffness_to_mass;
   }
+  const StrutVector slow = out_.unsprung - out_.sprung - parts.col(kParts);
   StrutVector neighbours = forces_ * forces;
-  for (const Part part : {kDamper, kSpring, kLaw}) neighbours += ratios_[part] * parts[part];
+  for (const Part part : {kDamper, kSpring, kLaw}) neighbours += ratios_[part] * parts.col(part);
   const StrutVector unseen = ratios_[kSpring] * stiffness.cwiseProduct(slow);
   out_.sprung -= neighbours;
   const StrutVector by_others = neighbours - unseen.cwiseQuotient(stiffness);

@@ -26,11 +26,11 @@ Eigen::Vector3d medianOf(Readings::const_iterator begin, Readings::const_iterato
 // Beyond half of gravity, where no offset reaches, or in g.
 bool isGravity(double size) { return size >= kStandardGravity / 2.0 || readsInG(size); }
 
-}  // namespace
-
 double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
+
+}  // namespace
 
 BodyLevel::BodyLevel(const Readings& accelerations) {
   const auto begin = accelerations.begin(), end = accelerations.end();

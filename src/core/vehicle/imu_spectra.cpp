@@ -91,7 +91,7 @@ double ImuSpectra::rms(std::size_t imu, const Eigen::Vector3d& direction, double
 }
 
 ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const {
-  ImuSignals signals{band_};
+  ImuSignals signals{band_, modulation_.s()};
   signals.imus = streams_.size();
   for (std::size_t i = 0; i < signals.imus; ++i) signals.owners.push_back(i);
   for (std::size_t i = 0; i < signals.imus; ++i)
@@ -105,7 +105,7 @@ ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::
   }
   for (std::size_t k = 0; k < sums_.size(); ++k) {
     for (std::size_t i = imus; i < size; ++i)
-      directions(i, kAxes * signals.owners[i] + 3 + (i - imus) % 3) = modulation_.s()[k];
+      directions(i, kAxes * signals.owners[i] + 3 + (i - imus) % 3) = signals.s[k];
     signals.spectra.emplace_back(directions * sums_[k] * directions.adjoint());
     signals.spectra.back().array() /= counts.array();
   }

@@ -12,29 +12,6 @@
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-/// What follows one wrong reading of a stream.
-/// @param tops  new ones.
-StrutDrives responseOf(StrutTops tops, std::size_t num_struts, Stamp period, std::size_t num_streams,
-                       std::size_t stream, double deviation) {
-  StrutDrives response(num_struts);
-  const int fill = 2 * tops.delay();
-  for (int k = 0; k <= 2 * fill; ++k) {
-    GridInstant instant{k * period, std::vector<double>(num_streams, 0.0), std::vector<bool>(num_streams, true)};
-    if (k == fill) instant.values[stream] = kDifferenceStep;
-    const VehicleSample* sample = tops.push(instant);
-    for (std::size_t i = 0; sample != nullptr && i < response.size(); ++i) {
-      CornerSample& of_strut = response[i].samples.emplace_back(sample->ofStrut(i));
-      of_strut.sprung_acceleration *= deviation / kDifferenceStep;
-      of_strut.unsprung_acceleration *= deviation / kDifferenceStep;
-    }
-  }
-  return response;
-}
-
-}  // namespace
-
 SensorNoise noiseOfOwnSensors(std::size_t num_struts) {
   SensorNoise noise;
   for (std::size_t i = 0; i < num_struts; ++i)
@@ -45,19 +22,28 @@ SensorNoise noiseOfOwnSensors(std::size_t num_struts) {
   return noise;
 }
 
-SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts) {
-  return noise.empty() ? noiseOfOwnSensors(num_struts) : noise;
-}
-
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise) {
   SensorNoise noise;
   std::size_t num_streams = channels.body_imu ? *channels.body_imu + 6 : 0;
   for (const VehicleChannels::Strut& strut : channels.struts)
     num_streams = std::max({num_streams, strut.unsprung + 1, strut.sprung.value_or(0) + 1});
   for (const std::size_t force : channels.known_forces) num_streams = std::max(num_streams, force + 1);
-  const StrutTops tops(period, channels);
+  const StrutTops still(period, channels);
+  const int fill = 2 * still.delay();
+  // What follows one wrong reading of a stream.
   const auto add = [&](std::size_t stream, double deviation) {
-    noise.push_back(responseOf(tops, channels.struts.size(), period, num_streams, stream, deviation));
+    StrutDrives& response = noise.emplace_back(channels.struts.size());
+    StrutTops tops = still;
+    for (int k = 0; k <= 2 * fill; ++k) {
+      GridInstant instant{k * period, std::vector<double>(num_streams, 0.0), std::vector<bool>(num_streams, true)};
+      if (k == fill) instant.values[stream] = kDifferenceStep;
+      const VehicleSample* sample = tops.push(instant);
+      for (std::size_t i = 0; sample != nullptr && i < response.size(); ++i) {
+        CornerSample& of_strut = response[i].samples.emplace_back(sample->ofStrut(i));
+        of_strut.sprung_acceleration *= deviation / kDifferenceStep;
+        of_strut.unsprung_acceleration *= deviation / kDifferenceStep;
+      }
+    }
   };
   for (const VehicleChannels::Strut& strut : channels.struts) {
     add(strut.unsprung, 1.0);
@@ -89,17 +75,16 @@ StrutDrives makeNoiseDrive(const SensorNoise& noise, double period) {
   std::normal_distribution<double> normal;
   for (const StrutDrives& response : noise) {
     const std::size_t length = response.front().samples.size();
-    for (std::size_t k = 0; k < kVehicleTuning.noise_drive + length - 1; ++k) {
-      const double reading = normal(engine);
-      for (std::size_t i = 0; i < drive.size(); ++i)
-        for (std::size_t l = k < kVehicleTuning.noise_drive ? 0 : k - kVehicleTuning.noise_drive + 1;
-             l < length && l <= k; ++l) {
+    std::vector<double> readings(kVehicleTuning.noise_drive + length - 1);
+    for (double& reading : readings) reading = normal(engine);
+    for (std::size_t i = 0; i < drive.size(); ++i)
+      for (std::size_t k = 0; k < kVehicleTuning.noise_drive; ++k)
+        for (std::size_t l = 0; l < length; ++l) {
           const CornerSample& after = response[i].samples[l];
-          CornerSample& sample = drive[i].samples[k - l];
-          sample.sprung_acceleration += reading * after.sprung_acceleration;
-          sample.unsprung_acceleration += reading * after.unsprung_acceleration;
+          CornerSample& sample = drive[i].samples[k];
+          sample.sprung_acceleration += readings[k + l] * after.sprung_acceleration;
+          sample.unsprung_acceleration += readings[k + l] * after.unsprung_acceleration;
         }
-    }
   }
   return drive;
 }

@@ -53,7 +53,7 @@ class RigidBody {
   Eigen::MatrixXd struts(const Eigen::VectorXd& parameters, int kind) const {
     Eigen::MatrixXd result = parameters.segment(firstStrut(kind), numStruts()).asDiagonal();
     for (int p = 0; p < numBars(kind); ++p) {
-      const auto [i, j] = bar(p);
+      const auto [i, j] = pairs_[p];
       const double value = parameters[firstBar(kind) + p];
       result(i, i) += value;
       result(j, j) += value;
@@ -63,12 +63,15 @@ class RigidBody {
     return result;
   }
 
-  /// @return the rows of the tops: rates, then travels.
-  Eigen::MatrixXd rows(const Eigen::VectorXd& parameters) const {
-    const Eigen::MatrixXd a = mobility(inertia(parameters));
+  /// @return what that mobility makes of the struts and bars: rates, then travels.
+  Eigen::MatrixXd rows(const Eigen::MatrixXd& mobility, const Eigen::VectorXd& parameters) const {
     Eigen::MatrixXd result(numStruts(), 2 * numStruts());
-    result << a * struts(parameters, kDamping), a * struts(parameters, kStiffness);
+    result << mobility * struts(parameters, kDamping), mobility * struts(parameters, kStiffness);
     return result;
+  }
+  /// @return the rows of the tops.
+  Eigen::MatrixXd rows(const Eigen::VectorXd& parameters) const {
+    return rows(mobility(inertia(parameters)), parameters);
   }
 
  private:
@@ -119,30 +122,25 @@ class RigidBodyRows {
   int df(const Eigen::VectorXd& parameters, Eigen::MatrixXd& jacobian) const {
     jacobian.setZero(values(), inputs());
     const Eigen::MatrixXd s = body_.inertia(parameters), a = body_.mobility(s);
-    const Eigen::MatrixXd dampings = body_.struts(parameters, RigidBody::kDamping);
-    const Eigen::MatrixXd stiffnesses = body_.struts(parameters, RigidBody::kStiffness);
-    Eigen::MatrixXd slope(n_, 2 * n_);
-    const auto take = [&](int parameter) { whiten(slope, jacobian.col(parameter)); };
     for (int row = 1; row < m_; ++row)
       for (int column = 0; column <= row; ++column) {
         Eigen::MatrixXd ds = Eigen::MatrixXd::Zero(m_, m_);
         ds(row, column) = ds(column, row) = row == column ? s(row, row) : 1.0;
-        const Eigen::MatrixXd da = body_.mobility(ds);
-        slope << da * dampings, da * stiffnesses;
-        take(RigidBody::bodyAt(row, column));
+        whiten(body_.rows(body_.mobility(ds), parameters), jacobian.col(RigidBody::bodyAt(row, column)));
       }
+    Eigen::MatrixXd slope(n_, 2 * n_);
     for (int kind = 0; kind < RigidBody::kNumKinds; ++kind) {
       for (int j = 0; j < n_; ++j) {
         slope.setZero();
         slope.col(kind * n_ + j) = a.col(j);
-        take(body_.firstStrut(kind) + j);
+        whiten(slope, jacobian.col(body_.firstStrut(kind) + j));
       }
       for (int p = 0; p < body_.numBars(kind); ++p) {
         const auto [i, j] = body_.bar(p);
         slope.setZero();
         slope.col(kind * n_ + i) = a.col(i) - a.col(j);
         slope.col(kind * n_ + j) = a.col(j) - a.col(i);
-        take(body_.firstBar(kind) + p);
+        whiten(slope, jacobian.col(body_.firstBar(kind) + p));
       }
     }
     for (int d = 1; d < m_; ++d) jacobian(2 * n_ * n_ + d - 1, RigidBody::bodyAt(d, d)) = 1.0 / kLogInertiaStddev;

@@ -18,9 +18,7 @@ constexpr std::pair<double, double> kTrials[] = {{1.0, 0.0}, {1.0, 0.01}, {1.0, 
                                                  {0.5, 0.0}, {8.0, 0.0},  {0.125, 0.0}, {1.0 / 32.0, 0.0}};
 
 std::optional<RoughStrut> find(const std::vector<Drive>& drives, double period, double length, double lag) {
-  BlockOptions options;
-  options.length = length;
-  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), options, period);
+  VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), period, length);
   for (const Drive& drive : drives) {
     blocks.restart();
     for (const CornerSample& sample : drive.samples) blocks.push(sample, fromSeconds(lag));

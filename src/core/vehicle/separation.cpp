@@ -26,8 +26,8 @@ void requireOneGrid(const VehicleDrive& drive) {
 }
 
 std::vector<double> columnOf(const Eigen::MatrixXd& matrix, std::size_t column) {
-  const auto values = matrix.col(column);
-  return {values.begin(), values.end()};
+  const double* values = matrix.col(column).data();
+  return {values, values + matrix.rows()};
 }
 
 }  // namespace
@@ -73,6 +73,9 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
     if (drive.struts.size() != names.size())
       throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
                                   std::to_string(names.size()));
+    if (!drive.places.empty() && drive.places.size() != names.size())
+      throw std::invalid_argument("positions of " + std::to_string(drive.places.size()) + " struts, must be of " +
+                                  std::to_string(names.size()) + " or none");
     if (namesOf(drive.forces) != namesOf(drives.front().forces))
       throw std::invalid_argument("a drive with the known forces [" + join(namesOf(drive.forces)) + "], must be [" +
                                   join(namesOf(drives.front().forces)) + "] as in the first");
@@ -82,22 +85,20 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
   return given ? *given : medianPeriod(of_first);
 }
 
-VehicleCoupling describe(const BodyRows* rows, const std::optional<BodyFitResult>& body, const std::string& why_none,
+VehicleCoupling describe(const BodyRows& rows, const std::optional<BodyFitResult>& body,
                          const std::vector<std::string>& forces) {
   VehicleCoupling coupling;
-  coupling.reason = rows == nullptr ? why_none : "";
-  if (rows == nullptr) return coupling;
-  for (Eigen::Index i = 0; i < rows->size(); ++i) {
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
     coupling.ratios.emplace_back();
     coupling.stddevs.emplace_back();
-    for (Eigen::Index j = 0; j < rows->size(); ++j) {
-      const Measured ratio = rows->ratio(i, j);
+    for (Eigen::Index j = 0; j < rows.size(); ++j) {
+      const Measured ratio = rows.ratio(i, j);
       coupling.ratios.back().push_back(ratio.value);
       coupling.stddevs.back().push_back(ratio.stddev);
     }
   }
   for (std::size_t k = 0; k < forces.size(); ++k)
-    coupling.forces.push_back({forces[k], columnOf(rows->force, k), columnOf(rows->force_stddev, k)});
+    coupling.forces.push_back({forces[k], columnOf(rows.force, k), columnOf(rows.force_stddev, k)});
   if (!body) return coupling;
   coupling.model_error = body->phi;
   const auto relative = [](const Measured& value) { return value.stddev / value.value; };

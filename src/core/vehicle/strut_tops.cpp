@@ -12,10 +12,6 @@ using Strut = VehicleChannels::Strut;
 // Of the body: its acceleration upward and the products of angular rates, then the rates to differentiate.
 constexpr std::size_t kBodySignals = 4, kBodyRates = 2;
 
-Eigen::Vector3d threeFrom(const std::vector<double>& values, std::size_t first) {
-  return {values[first], values[first + 1], values[first + 2]};
-}
-
 }  // namespace
 
 StrutTops::StrutTops(Stamp period, const VehicleChannels& channels) : channels_(channels) {
@@ -64,8 +60,9 @@ void StrutTops::collect(const GridInstant& instant) {
   }
   for (const std::size_t force : channels_.known_forces) signals_.push_back(instant.values[force]);
   if (!filter_) return;
-  const Eigen::Vector3d acceleration = channels_.body_mount * threeFrom(instant.values, *channels_.body_imu);
-  const Eigen::Vector3d rate = channels_.body_mount * threeFrom(instant.values, *channels_.body_imu + 3);
+  const double* imu = &instant.values[*channels_.body_imu];
+  const Eigen::Vector3d acceleration = channels_.body_mount * Eigen::Map<const Eigen::Vector3d>(imu);
+  const Eigen::Vector3d rate = channels_.body_mount * Eigen::Map<const Eigen::Vector3d>(imu + 3);
   for (const double signal : {acceleration.z(), rate.z() * rate.x(), rate.z() * rate.y(),
                               -rate.x() * rate.x() - rate.y() * rate.y(), rate.x(), rate.y()})
     signals_.push_back(signal);

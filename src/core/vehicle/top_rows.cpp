@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "suspension_health_monitor/internal/math/statistics.h"
-
 namespace suspension_health_monitor {
 
 Measured BodyRows::ratio(Eigen::Index i, Eigen::Index j) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -20,18 +21,15 @@ const VehicleChannels& checked(const VehicleChannels& vehicle) {
 
 }  // namespace
 
-VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions& options, double period,
-                             std::size_t effects)
+VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, double period, double length, std::size_t effects)
     : vehicle_(checked(vehicle)),
       effects_(effects),
-      options_(options),
       period_(period),
-      length_(options.length),
+      length_(length),
       columns_{static_cast<int>(vehicle.known_forces.size() + std::max<std::size_t>(effects, 1)),
                2 * (static_cast<int>(size()) - 1), effects == 0},
       estimates_(size()),
       has_(size(), false),
-      blocks_(size()),
       last_(2 * size() + vehicle.known_forces.size() + 2),
       modulation_(BlockBand(length_, period)) {
   for (std::size_t i = 0; i < size(); ++i) estimates_[i].strut = i;
@@ -41,8 +39,7 @@ VehicleBlocks::VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions&
 
 void VehicleBlocks::begin(double length) {
   const BlockBand band(length, period_);
-  OfLength before{length_, std::move(estimators_)};
-  estimators_.clear();
+  std::vector<BlockEstimator> before = std::exchange(estimators_, {});
   length_ = length;
   modulation_ = Modulation(band);
   spectra_.emplace(band, vehicle_, effects_);
@@ -55,15 +52,13 @@ void VehicleBlocks::begin(double length) {
       length;
   for (SlidingFriction& each : friction_) each.setStrut(kVehicleTuning.start_damping * bounce, bounce * bounce, 0.0);
   for (std::size_t i = 0; i < size(); ++i) {
-    estimators_.emplace_back(band, columns_, options_);
-    if (before.estimators.empty() || !before.estimators[i].hasTheta()) continue;
-    estimators_[i].begin(before.estimators[i].theta(), before.estimators[i].slowPrior());
+    estimators_.emplace_back(band, columns_);
+    if (!before.empty() && before[i].hasTheta()) estimators_[i].begin(before[i].theta(), before[i].slowPrior());
   }
-  if (before.time() > longest_.time()) longest_ = std::move(before);
+  if (coveredBy(before) > coveredBy(longest_)) longest_ = std::move(before);
   has_model_ = isAlone();
   if (!isAlone()) rows_ = model_.emplace(band, size(), vehicle_.known_forces.size()).rows();
   motions_.setZero(band.size(), 2 * size());
-  motion_.resize(band.size());
   origin_.reset();
   to_update_ = size();
   to_predict_ = 0;
@@ -166,9 +161,10 @@ void VehicleBlocks::fillNeighbours() {
     const StrutBlock& block = estimators_[j].block(0);
     modulation_.setDelay(estimators_[j].hasTheta() ? estimators_[j].slowPrior().mean[kBlockDelay] : 0.0);
     for (const std::size_t p : {1, 0}) {
-      modulation_.apply(p, block.wheel, motion_);
-      if (estimators_[j].hasTheta()) motion_ *= 1.0 + estimators_[j].slowPrior().mean[kBlockGain];
-      motions_.col(2 * j + 1 - p) = motion_ - block.body.col(p);
+      auto motion = motions_.col(2 * j + 1 - p);
+      modulation_.apply(p, block.wheel, motion);
+      if (estimators_[j].hasTheta()) motion *= 1.0 + estimators_[j].slowPrior().mean[kBlockGain];
+      motion -= block.body.col(p);
     }
   }
   for (std::size_t i = 0; i < size(); ++i)
@@ -179,8 +175,7 @@ void VehicleBlocks::fillNeighbours() {
 
 // Without a model what was measured is all there is.
 void VehicleBlocks::predict(int age) {
-  for (std::size_t i = 0; i < size(); ++i) blocks_[i] = &estimators_[i].block(age);
-  if (has_model_) model_->predict(blocks_, firstKnownForce());
+  if (has_model_) model_->predict(estimators_, age, firstKnownForce());
   for (std::size_t i = 0; i < size(); ++i) {
     StrutBlock& block = estimators_[i].block(age);
     if (!has_model_) {
@@ -221,7 +216,7 @@ void VehicleBlocks::scaleNeighbours(std::size_t strut) {
     for (const int i : {kBlockDamping, kBlockStiffness}) {
       const double factor = now.theta[i] / all->theta[i], stddev = std::sqrt(now.covariance(i, i)) / all->theta[i];
       const bool has_changed = std::abs(factor - 1.0) > kLikely * stddev;
-      const int column = columnOf(strut, j) + i;
+      const int column = rateColumn(columns_, strut, j) + i;
       estimators_[strut].scaleSlow(column, has_changed ? factor : 1.0, has_changed ? stddev : 0.0);
     }
   }
@@ -237,7 +232,7 @@ void VehicleBlocks::updateModel() {
   for (std::size_t i = 0; i < n; ++i) {
     const BlockVector& theta = estimators_[i].theta();
     for (std::size_t j = 0; j < n; ++j) {
-      const int at = columnOf(i, j);
+      const int at = rateColumn(columns_, i, j);
       rows_.rate(i, j) = theta[at];
       rows_.travel(i, j) = theta[at + 1];
     }

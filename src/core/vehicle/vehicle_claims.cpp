@@ -22,10 +22,9 @@ double notShared(const Eigen::MatrixXd& products, Eigen::Index i, Eigen::Index j
 
 }  // namespace
 
-VehicleClaims::VehicleClaims(std::size_t forces, const Eigen::ArrayXcd& s, const TopsOfBody& tops_of_body,
-                             int most_blocks, bool gyro_died)
-    : n_(tops_of_body.size()),
-      forces_(forces),
+VehicleClaims::VehicleClaims(const VehicleChannels& vehicle, const Eigen::ArrayXcd& s, int most_blocks, bool gyro_died)
+    : n_(vehicle.struts.size()),
+      forces_(vehicle.known_forces.size()),
       s_(s),
       columns_(s.size(), Eigen::MatrixXcd(6 * n_ + forces_, most_blocks)),
       products_(columns_.size()),
@@ -33,21 +32,17 @@ VehicleClaims::VehicleClaims(std::size_t forces, const Eigen::ArrayXcd& s, const
   whole_.setZero(2 * n_, 2 * n_);
   measured_.setZero(6 * n_ + forces_, 6 * n_ + forces_);
   model_errors_.setZero(n_, 2);
-  for (std::size_t i = 0; i < tops_of_body.size(); ++i) {
-    if (!tops_of_body[i]) continue;
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    const VehicleChannels::Strut& strut = vehicle.struts[i];
+    if (strut.sprung) continue;
     of_body_.push_back(i);
-    places_.push_back(*tops_of_body[i]);
+    places_.push_back({strut.position->x(), strut.position->y()});
   }
   in_step_ = measured_;
 }
 
-void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXXcd& forces) {
-  Eigen::MatrixXcd columns(6 * n_ + forces_, s_.size());
-  columns.bottomRows(forces_) = forces.matrix().transpose();
-  for (std::size_t p = 0; p < 3; ++p) {
-    columns.middleRows(2 * p * n_, n_) = wheels[p].matrix().transpose();
-    columns.middleRows((2 * p + 1) * n_, n_) = tops[p].matrix().transpose();
-  }
+void VehicleClaims::add(const Eigen::ArrayXXcd& spectra) {
+  Eigen::MatrixXcd columns = spectra.matrix().transpose();
   whole_ += (columns.topRows(2 * n_) * columns.topRows(2 * n_).adjoint()).real();
   columns.array().rowwise() /= (s_ * s_).transpose();  // displacements, which a bounce has most of
   for (Eigen::Index k = 0; k < s_.size(); ++k) columns_[k].col(blocks_) = columns.col(k);
@@ -55,9 +50,7 @@ void VehicleClaims::add(const Spectra& wheels, const Spectra& tops, const Eigen:
 }
 
 VehicleClaims::Mapping VehicleClaims::asFiled() const {
-  Mapping mapping{Eigen::MatrixXd::Zero(n_, 2 * n_), Eigen::MatrixXd::Zero(n_, 2 * n_), Eigen::VectorXd::Zero(2 * n_)};
-  mapping.wheels.leftCols(n_).setIdentity();
-  mapping.tops.rightCols(n_).setIdentity();
+  Mapping mapping{Eigen::MatrixXd::Identity(2 * n_, 2 * n_), Eigen::VectorXd::Zero(2 * n_)};
   mapping.delays.tail(n_).fill(late_tops_);
   return mapping;
 }
@@ -79,13 +72,14 @@ Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
 }
 
 VehicleClaims::Rows VehicleClaims::fit(const Mapping& mapping, const Eigen::MatrixXd& moments) const {
-  const Eigen::MatrixXd travel = mapping.wheels - mapping.tops;
+  const auto tops = mapping.streams.bottomRows(n_);
+  const Eigen::MatrixXd travel = mapping.streams.topRows(n_) - tops;
   const Eigen::Index regressors = 2 * n_ + forces_;
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(regressors + n_, moments.rows());
   columns.block(0, 2 * n_, n_, 2 * n_) = travel;  // rates: p = 1
   columns.block(n_, 0, n_, 2 * n_) = travel;      // travels: p = 0
   columns.block(2 * n_, 6 * n_, forces_, forces_).setIdentity();
-  columns.block(regressors, 4 * n_, n_, 2 * n_) = mapping.tops;  // z'': p = 2
+  columns.block(regressors, 4 * n_, n_, 2 * n_) = tops;  // z'': p = 2
   const Eigen::MatrixXd products = columns * moments * columns.transpose();
   const Eigen::MatrixXd scores = products.topRightCorner(regressors, n_);
   const Eigen::MatrixXd rows = pseudoInverse(Eigen::MatrixXd(products.topLeftCorner(regressors, regressors))) * scores;

@@ -52,11 +52,7 @@ bool VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
 void VehicleGrid::lead(const VehicleStreams::Sensor& sensor, const double* values, Stamp taken) {
   if (!readings_ || sensor.place == Place::kRoad) return;
   if (sensor.place == Place::kForce) {
-    for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k) {
-      const std::size_t stream = vehicle_.known_forces[k];
-      if (stream < sensor.stream || stream >= sensor.stream + sensor.count) continue;
-      give({Sensor::kForce, k, taken, {values[stream - sensor.stream]}});
-    }
+    for (std::size_t i = 0; i < sensor.count; ++i) give({Sensor::kForce, sensor.forces[i], taken, {values[i]}});
     return;
   }
   VehicleReading reading{Sensor::kBody, sensor.strut, taken, {}};
@@ -126,24 +122,18 @@ void VehicleGrid::lead(const GridInstant& instant) {
   if (const VehicleSample* sample = tops_.push(instant)) sink_(*sample);
 }
 
-// @return of three axes of the body's IMU, rms.
-double VehicleGrid::deviation(std::size_t first_axis) const {
-  double squares = 0.0;
-  for (std::size_t axis = first_axis; axis < first_axis + 3; ++axis) squares += square(body_levels_[axis].deviation());
-  return std::sqrt(squares / 3.0);
-}
-
-bool VehicleGrid::hasHeardNoise() const {
-  return !body_levels_.empty() && body_levels_.front().count() >= kVehicleTuning.fewest_of_noise && deviation(0) > 0.0;
-}
-
-SensorNoise VehicleGrid::noise() const {
-  return noiseOfStrutTops(vehicle_, period_,
-                          hasHeardNoise() ? deviation(3) / deviation(0) : kVehicleTuning.gyro_noise_ratio);
-}
-
 void VehicleGrid::describe(VehicleDrive& drive) const {
-  drive.noise = noise();
+  // Of three axes of the body's IMU.
+  const auto power = [&](std::size_t first_axis) {
+    double squares = 0.0;
+    for (std::size_t axis = first_axis; axis < first_axis + 3; ++axis)
+      squares += square(body_levels_[axis].deviation());
+    return squares;
+  };
+  const bool is_heard =
+      !body_levels_.empty() && body_levels_.front().count() >= kVehicleTuning.fewest_of_noise && power(0) > 0.0;
+  const double gyro_noise = is_heard ? std::sqrt(power(3) / power(0)) : kVehicleTuning.gyro_noise_ratio;
+  drive.noise = noiseOfStrutTops(vehicle_, period_, gyro_noise);
   for (Drive& strut : drive.struts) strut.low_pass.taps = tops_.lowPass();
 }
 

@@ -124,18 +124,18 @@ void checkTopics(const VehicleLayout& layout) {
   }
 }
 
+}  // namespace
+
 // Of two struts in one place the body's IMU says the same, whatever the body does.
-void checkPositions(const VehicleLayout& layout) {
+void requireApart(const VehicleLayout& layout) {
   for (auto strut = layout.struts.begin(); strut != layout.struts.end(); ++strut)
     for (auto other = layout.struts.begin(); other != strut; ++other)
       if (strut->position && other->position &&
           std::hypot((*strut->position)[0] - (*other->position)[0], (*strut->position)[1] - (*other->position)[1]) <
               kVehicleTuning.nearest)
-        refuse("struts/" + strut->name + "/position is that of struts/" + other->name +
-               " too, must be another x or y: it is where the strut meets the body");
+        refuse("struts/" + strut->name + (strut->frame ? "/frame" : "/position") + " is where struts/" + other->name +
+               " is, must be another x or y: it is where the strut meets the body");
 }
-
-}  // namespace
 
 VehicleLayout VehicleLayout::ofOneStrut(bool has_road) {
   VehicleLayout layout;
@@ -166,7 +166,7 @@ VehicleLayout takeVehicle(OptionMap& values) {
   checkNumber("struts", layout.struts.size(), kMostStruts);
   checkNumber("known_forces", layout.known_forces.size(), kMostKnownForces);
   checkTopics(layout);
-  checkPositions(layout);
+  requireApart(layout);
   return layout;
 }
 
@@ -199,25 +199,24 @@ VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
 
 void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& forces) {
   const auto num_imus = static_cast<std::ptrdiff_t>(sensors.size());
-  const auto ofTopic = [&](const std::string& topic) {
-    return std::find_if(sensors.begin() + num_imus, sensors.end(),
-                        [&](const Sensor& sensor) { return sensor.topic == topic; });
-  };
-  for (const VehicleLayout::KnownForce& force : forces) {
-    if (ofTopic(force.topic) == sensors.end())
-      sensors.push_back({force.topic, Place::kForce, 0, 0, 0, "known_forces/" + force.name + "/topic"});
-    ofTopic(force.topic)->fields.push_back(force.field);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const VehicleLayout::KnownForce& force = forces[k];
+    auto sensor = std::find_if(sensors.begin() + num_imus, sensors.end(),
+                               [&](const Sensor& each) { return each.topic == force.topic; });
+    if (sensor == sensors.end())
+      sensor = sensors.insert(sensor, {force.topic, Place::kForce, 0, 0, 0, "known_forces/" + force.name + "/topic"});
+    sensor->fields.push_back(force.field);
+    sensor->forces.push_back(k);
   }
-  for (auto sensor = sensors.begin() + num_imus; sensor != sensors.end(); ++sensor) {
-    sensor->stream = options.size();
-    sensor->count = sensor->fields.size();
-    const std::size_t number = sensor - sensors.begin();
-    options.insert(options.end(), sensor->count, StreamOptions{number, true, true});
-  }
-  for (const VehicleLayout::KnownForce& force : forces) {
-    const std::vector<std::size_t>& fields = ofTopic(force.topic)->fields;
-    const auto place = std::find(fields.begin(), fields.end(), force.field) - fields.begin();
-    channels.known_forces.push_back(ofTopic(force.topic)->stream + place);
+  channels.known_forces.resize(forces.size());
+  for (std::size_t number = num_imus; number < sensors.size(); ++number) {
+    Sensor& sensor = sensors[number];
+    sensor.stream = options.size();
+    sensor.count = sensor.forces.size();
+    for (const std::size_t k : sensor.forces) {
+      channels.known_forces[k] = options.size();
+      options.push_back({number, true, true});
+    }
   }
 }
 

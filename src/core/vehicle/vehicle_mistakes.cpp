@@ -74,13 +74,19 @@ bool VehicleClaims::hasDeadGyro() const {
 
 std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
   std::vector<Hypothesis> all;
-  addDelays(all);
   const auto struts = static_cast<std::size_t>(n_);
   for (std::size_t i = 0; i < struts; ++i) {
-    all.push_back({Kind::kUpsideDown, {i, i}, {1.0}, [i](double, Mapping& m) { m.wheels.row(i) *= -1.0; }});
+    all.push_back({Kind::kWheelDelay, {i, i}, kDelays, [i](double size, Mapping& m) { m.delays[i] = size; }});
+    if (!isByBody())
+      all.push_back(
+          {Kind::kTopDelay, {i, i}, kDelays, [i, n = n_](double size, Mapping& m) { m.delays[n + i] = size; }});
+  }
+  all.push_back({allTops(), {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
+  for (std::size_t i = 0; i < struts; ++i) {
+    all.push_back({Kind::kUpsideDown, {i, i}, {1.0}, [i](double, Mapping& m) { m.streams.row(i) *= -1.0; }});
     for (std::size_t j = i + 1; j < struts; ++j)
       all.push_back(
-          {Kind::kSwapped, {i, j}, {1.0}, [i, j](double, Mapping& m) { m.wheels.row(i).swap(m.wheels.row(j)); }});
+          {Kind::kSwapped, {i, j}, {1.0}, [i, j](double, Mapping& m) { m.streams.row(i).swap(m.streams.row(j)); }});
   }
   if (isByBody()) addPositions(all);
   return all;
@@ -94,7 +100,7 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
     all.push_back({kind, {strut, strut}, sizes, [places = places_, change, inverse, n = n_](double size, Mapping& m) {
                      StrutPlaces other = places;
                      change(size, other);
-                     m.tops.rightCols(n) = motionsOf(other) * inverse;
+                     m.streams.bottomRightCorner(n, n) = motionsOf(other) * inverse;
                    }});
   };
   for (const std::size_t axis : {0u, 1u}) {
@@ -117,16 +123,6 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
             [axis, i](double size, StrutPlaces& other) { other[i][axis] *= size; });
     }
   }
-}
-
-void VehicleClaims::addDelays(std::vector<Hypothesis>& all) const {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
-    all.push_back({Kind::kWheelDelay, {i, i}, kDelays, [i](double size, Mapping& m) { m.delays[i] = size; }});
-    if (!isByBody())
-      all.push_back(
-          {Kind::kTopDelay, {i, i}, kDelays, [i, n = n_](double size, Mapping& m) { m.delays[n + i] = size; }});
-  }
-  all.push_back({allTops(), {}, kDelays, [n = n_](double size, Mapping& m) { m.delays.tail(n).fill(size); }});
 }
 
 }  // namespace suspension_health_monitor

@@ -8,15 +8,15 @@ namespace suspension_health_monitor {
 
 std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
   // Blocks of another length before may be those of most of the drive.
-  const bool is_earlier = longest_.time() > OfLength::time(length_, estimators_);
+  const bool is_earlier = coveredBy(longest_) > coveredBy(estimators_);
   if (!has_model_ && !is_earlier) return std::nullopt;
-  BlockEstimator& estimator = (is_earlier ? longest_.estimators : estimators_)[strut];
+  BlockEstimator& estimator = (is_earlier ? longest_ : estimators_)[strut];
   const std::optional<WindowEstimate> of_drive = estimator.overTheDrive();
   const auto& all = estimator.ofAllBlocks();
   if (!of_drive || (!all && !isAlone())) return std::nullopt;
   TopEstimate result = estimates_[strut];
   static_cast<WindowEstimate&>(result) = *of_drive;
-  result.length = is_earlier ? longest_.length : length_;
+  result.length = lengthOf(estimator);
   if (isAlone()) return result;
   // Noise of wheels that move alike draws every block the same way: more blocks do not help.
   result.alike = std::max(result.alike, all->alike);
@@ -42,7 +42,7 @@ void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, Bo
   using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;
   Selection selection = Selection::Zero(2 * n, estimate.theta.size());
   for (std::size_t j = 0; j < n; ++j) {
-    const int at = columnOf(strut, j);
+    const int at = rateColumn(columns_, strut, j);
     selection(j, at) = selection(n + j, at + 1) = 1.0;
   }
   if (looksForFriction()) selection(strut, columns_.firstForce()) = estimate.frictionGain();
@@ -78,27 +78,23 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   return rows;
 }
 
-VehicleClaims VehicleBlocks::claims(const TopsOfBody& tops_of_body) const {
-  const std::size_t n = size();
-  const Modulation modulation(estimators_.front().equations().band());
-  const Eigen::ArrayXcd s = modulation.s();
-  const std::size_t num_forces = vehicle_.known_forces.size();
-  VehicleClaims claims(num_forces, s, tops_of_body, estimators_.front().count(), gyro_.isDead());
-  VehicleClaims::Spectra wheels, tops;
-  Eigen::ArrayXXcd forces(s.size(), num_forces);
-  for (std::size_t p = 0; p < 3; ++p) wheels[p] = tops[p] = Eigen::ArrayXXcd(s.size(), n);
+VehicleClaims VehicleBlocks::claims(const VehicleChannels& vehicle) const {
+  const std::size_t n = size(), num_forces = vehicle_.known_forces.size();
+  const Modulation& modulation = estimators_.front().equations().undelayed();
+  VehicleClaims claims(vehicle, modulation.s(), estimators_.front().count(), gyro_.isDead());
+  Eigen::ArrayXXcd spectra(modulation.s().size(), 6 * n + num_forces);
   for (int age = 0; age < estimators_.front().count(); ++age) {
     for (std::size_t i = 0; i < n; ++i) {
       const StrutBlock& block = estimators_[i].block(age);
       for (std::size_t p = 0; p < 3; ++p) {
-        modulation.apply(p, block.wheel, wheels[p].col(i));
-        tops[p].col(i) = block.body.col(p);
+        modulation.apply(p, block.wheel, spectra.col(2 * p * n + i));
+        spectra.col((2 * p + 1) * n + i) = block.body.col(p);
       }
     }
     const StrutBlock& first = estimators_.front().block(age);
     for (std::size_t k = 0; k < num_forces; ++k)
-      modulation.apply(2, first.forces.col(firstKnownForce() + k), forces.col(k));
-    claims.add(wheels, tops, forces);
+      modulation.apply(2, first.forces.col(firstKnownForce() + k), spectra.col(6 * n + k));
+    claims.add(spectra);
   }
   return claims;
 }

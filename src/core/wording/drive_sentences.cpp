@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/wording/drive_sentences.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {

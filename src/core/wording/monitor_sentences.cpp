@@ -4,6 +4,7 @@
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
+#include "suspension_health_monitor/internal/health/health_rules.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
@@ -70,34 +71,6 @@ std::string describe(const SensorReport& report) {
   return {};
 }
 
-std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
-  const double horizon = found.horizon_samples * found.sample_period;
-  if (found.estimate.valid() && found.isSteady()) return StrutOfDrive{found.estimate, "over the whole drive", horizon};
-  if (found.now.valid()) return StrutOfDrive{found.now, "at the end of the drive", horizon};
-  return std::nullopt;
-}
-
-std::string describeChange(const StrutOfDrive& found, const Baseline& healthy, const MonitorOptions& options) {
-  const StrutChange change = splitChange(changeFrom(healthy, found.strut).change, options.payload_range, 0.0);
-  const std::string text = describe(change, healthy);
-  return text.empty() ? "" : "the strut, " + found.by + ": " + text;
-}
-
-std::string describeChange(const IdentifyResult& found, const Baseline& healthy, const MonitorOptions& options) {
-  const std::optional<StrutOfDrive> strut = strutOf(found);
-  return strut ? describeChange(*strut, healthy, options) : "";
-}
-
-std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptions& searched, const Baseline& healthy,
-                           const MonitorOptions& options) {
-  if (healthy.isEmpty()) return "";
-  IdentifyOptions identifying;
-  identifying.sample_period = searched.sample_period;
-  identifying.horizon_samples = searched.horizon_samples;
-  identifying.memory = options.memory;
-  return describeChange(identify(drives, identifying), healthy, options);
-}
-
 namespace {
 
 // @param roughest  how much quicker the roughest quarter of the last drive is than this road, on average.
@@ -144,17 +117,12 @@ std::string describeChange(const std::string& parameter, const std::optional<dou
   return parameter + " " + sideInPercent(*change) + " " + reference + (interval.empty() ? "" : " (" + interval + ")");
 }
 
-std::string describePayload(const std::optional<double>& change) {
-  return change && std::lround(100.0 * *change) != 0 ? "body mass " + sideInPercent(*change) : "";
-}
-
-const char* referenceOf(bool learned) { return learned ? "baseline" : "nominal"; }
-
 std::string describeChanges(const HealthReport& report) {
-  const std::string reference = referenceOf(report.learned);
+  const std::string reference = report.learned ? "baseline" : "nominal";
+  const double payload = report.payload_change.value_or(0.0);
   return join({describeChange("damping", report.damping_change, report.damping_stddev, reference),
                describeChange("stiffness", report.stiffness_change, report.stiffness_stddev, reference),
-               describePayload(report.payload_change)});
+               std::lround(100.0 * payload) != 0 ? "body mass " + sideInPercent(payload) : ""});
 }
 
 std::string describe(LoadDoubt doubt) {
@@ -242,11 +210,30 @@ std::string describe(const HealthReport& report) {
               "; ");
 }
 
-std::string describe(const StrutChange& change, const Baseline& healthy) {
-  const std::string reference = referenceOf(healthy.learned);
-  return join({describeChange("damping", change.damping, change.damping_stddev, reference),
-               describeChange("stiffness", change.stiffness, change.stiffness_stddev, reference),
-               describePayload(change.payload)});
+std::optional<StrutOfDrive> strutOf(const IdentifyResult& found) {
+  const double horizon = found.horizon_samples * found.sample_period;
+  if (found.estimate.valid() && found.isSteady()) return StrutOfDrive{found.estimate, "over the whole drive", horizon};
+  if (found.now.valid()) return StrutOfDrive{found.now, "at the end of the drive", horizon};
+  return std::nullopt;
+}
+
+std::string describeChange(const IdentifyResult& found, const Baseline& healthy, const MonitorOptions& options) {
+  const std::optional<StrutOfDrive> strut = strutOf(found);
+  if (!strut) return "";
+  HealthReport report = reportOf(splitChange(changeFrom(healthy, strut->strut), options.payload_range, 0.0));
+  report.learned = healthy.learned;
+  const std::string changes = describeChanges(report);
+  return changes.empty() ? "" : "the strut, " + strut->by + ": " + changes;
+}
+
+std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptions& searched, const Baseline& healthy,
+                           const MonitorOptions& options) {
+  if (healthy.isEmpty()) return "";
+  IdentifyOptions identifying;
+  identifying.sample_period = searched.sample_period;
+  identifying.horizon_samples = searched.horizon_samples;
+  identifying.memory = options.memory;
+  return describeChange(identify(drives, identifying), healthy, options);
 }
 
 std::string describe(const CornerComparisonReport& report) {

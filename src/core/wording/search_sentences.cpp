@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeastShown = 0.001;  // what percent() shows, 0.1 %
 
-std::string describe(const char* number, const std::optional<RelativeChange>& change) {
+std::string describe(const char* number, const std::optional<Measured>& change) {
   if (!change) return std::string(number) + " wrong by an unknown share";
   if (change->isKnown() && std::abs(change->value) >= kLeastShown)
     return number + (" " + percent(std::abs(change->value))) + (change->value > 0.0 ? " high" : " low");

@@ -110,9 +110,6 @@ void takeOptions(OptionMap& values, const OptionField<Options> (&fields)[N], Opt
   options = changed;
 }
 
-/// @throws std::invalid_argument  if a name is longer than any that somebody has chosen.
-void requireNameLength(const std::string& name);
-
 /// @param known  descriptions of all options that the caller understands, to propose the nearest name if one is near.
 /// @throws std::invalid_argument  naming the first key that is left in `values`: a misspelt option must not pass. Of a
 /// name that was an option once it says what serves instead.

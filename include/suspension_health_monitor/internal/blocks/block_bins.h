@@ -10,18 +10,9 @@
 
 namespace suspension_health_monitor {
 
-/// Blocks of Fourier modulating functions, and what is assumed of the strut before any data. Every other number of the
-/// estimator is derived from these where it stands. Symbols as in doc/equations.md, Block estimate.
-struct BlockOptions {
-  double length = 2.0;       ///< T of the first blocks [s]; then it follows the bounce by factors of two
-  double enough = 0.0375;    ///< relative standard deviation of b1 and b0 that needs no more blocks: 0.15, the change
-                             ///< that warns, over 4, the standard deviations that prove it [-]
-  double gain_stddev = 0.1;  ///< prior of the difference of both sensors' gains: 0.8 to 1.25 are within 2.5 of it [-]
-  double delay_stddev = 0.005;  ///< prior of the clocks' difference [s]
-};
-
 /// The bins of a block that the estimator uses: k = first .. last, w_k = 2 pi k / T. The Hann window mixes each bin
-/// with its neighbours, so that spectra hold bins first - 1 .. last + 1.
+/// with its neighbours, so that spectra hold bins first - 1 .. last + 1. Symbols as in doc/equations.md, Block
+/// estimate.
 struct BlockBand {
   static constexpr int kFirst = 2;  ///< below, an offset and a drift of the sensors leak in through the Hann window
   static constexpr int kLast = 40;  ///< 20 times the first: from half the bounce to beyond the wheel's hop

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <boost/circular_buffer.hpp>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -61,14 +62,14 @@ class DriveFit {
 
 /// The newest blocks of one strut top and the estimate that they give.
 ///
-/// The window is the smallest one that knows b1 and b0 well enough (BlockOptions::enough), or the one that knows them
+/// The window is the smallest one that knows b1 and b0 well enough (kBlockTuning.enough), or the one that knows them
 /// best: short on a rough road, long on a smooth one, with no memory to choose. What changes slowly, the delay, the
 /// forces' columns and the neighbours', is known from all blocks and comes to a window as its prior; if the newest
 /// blocks contradict that, the windows begin without it. Blocks are linearised at the estimate of their time, and again
 /// where that is stale. Cost per block: some ten linearisations at most, after the start; no allocation.
 class BlockEstimator {
  public:
-  BlockEstimator(const BlockBand& band, const BlockColumns& columns, const BlockOptions& options);
+  BlockEstimator(const BlockBand& band, const BlockColumns& columns);
 
   /// @return the place of the next block, to be filled; the newest then is the one before.
   StrutBlock& next();
@@ -88,8 +89,8 @@ class BlockEstimator {
   void setWheelNoise(const std::vector<WheelNoise>& each) { window_fit_.setWheelNoise(each); }
 
   /// A block that is kept, 0 the newest, to have its instruments predicted again: then call linearise() with it.
-  StrutBlock& block(int age) { return ring_[placeOf(age)]; }
-  const StrutBlock& block(int age) const { return ring_[placeOf(age)]; }
+  StrutBlock& block(int age) { return ring_.rbegin()[age]; }
+  const StrutBlock& block(int age) const { return ring_.rbegin()[age]; }
   int count() const { return count_; }                        ///< blocks kept
   int numBlocks() const { return drive_.blocks() + count_; }  ///< since the start
   void linearise(StrutBlock& block) { equations_.linearise(theta_, block); }
@@ -123,9 +124,6 @@ class BlockEstimator {
   const BlockPrior& slowPrior() const { return slow_; }
 
  private:
-  std::size_t placeOf(int age) const {
-    return static_cast<std::size_t>((head_ - age + kBlockWindows.back()) % kBlockWindows.back());
-  }
   const std::vector<const StrutBlock*>& newest(int count, int from = 0);
   void scaleSlow();
   double delayStddev() const;
@@ -142,13 +140,12 @@ class BlockEstimator {
   bool isStale(const StrutBlock& block) const;
   bool fit(int window, const BlockPrior& prior, WindowEstimate& result);
 
-  BlockOptions options_;
   StrutEquations equations_;
   WindowFit window_fit_;
-  std::vector<StrutBlock> ring_;
-  int count_ = 0, head_ = -1;
+  boost::circular_buffer<StrutBlock> ring_;  // always full; of the newest count_ blocks, and of places to be filled
+  int count_ = 0;
   int updates_ = 0, waits_ = 0;       // blocks until another start
-  BlockPrior first_, slow_, scaled_;  // of nothing but the options; with what all blocks tell of slow parameters; now
+  BlockPrior first_, slow_, scaled_;  // of kBlockTuning alone; with what all blocks tell of slow parameters; now
   BlockVector factor_, factor_stddev_;
   BlockWeights weights_;  // of all blocks; with their median
   double scatter_ = 1.0;

@@ -73,8 +73,7 @@ class FourierIntegrals {
 
  private:
   struct Half {
-    long index = -1;
-    bool is_complete = false;
+    long index = -1;  // -1: none, or not complete
     Eigen::ArrayXXcd integrals;
   };
 
@@ -96,7 +95,6 @@ class FourierIntegrals {
 
   BlockBand band_;
   double half_length_, longest_spacing_;
-  std::size_t channels_;
   std::array<Half, kHalves> halves_;
   Eigen::ArrayXXd real_, imaginary_;   // sums of the open half block
   Reading before_, last_, held_;       // the two newest that are taken in; the next one

@@ -2,9 +2,15 @@
 
 namespace suspension_health_monitor {
 
-/// The numbers of the block estimator that do not follow from BlockOptions.
+/// The numbers that decide in the block estimator.
 struct BlockTuning {
-  double usable = 0.35;  ///< of the rate: the anti-alias filters of two IMUs differ beyond
+  double length = 2.0;  ///< T of the first blocks [s]; then it follows the bounce by factors of two
+  /// relative standard deviation of b1 and b0 that needs no more blocks [-]: 0.15, the change that warns, over 4, the
+  /// standard deviations that prove it
+  double enough = 0.0375;
+  double gain_stddev = 0.1;  ///< prior of the difference of both sensors' gains: 0.8 to 1.25 are within 2.5 of it [-]
+  double delay_stddev = 0.005;  ///< prior of the clocks' difference [s]
+  double usable = 0.35;         ///< of the rate: the anti-alias filters of two IMUs differ beyond
   /// Share of the power of the body from which a delay or a gain is that of a sensor: a law with memory, and whatever
   /// is missing, looks like one, but leaves more unexplained: 4 % and more on measured and simulated records.
   double nearly_all = 0.97;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,7 +29,15 @@ std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& se
 std::vector<FailureRegion> findFailures(const ResidualViews& views, const LinearStrut& strut, double noise_floor);
 
 /// @return the range of nearly all values: single extremes would stretch an axis.
-std::pair<double, double> coveredRange(std::vector<double> values);
+std::pair<double, double> coveredRange(Eigen::VectorXd values);
+
+/// @return one series of every segment, such as &ComparedSegment::measured or &ComparedSegment::residuals.
+template <class Series>
+std::vector<std::vector<double>> seriesOf(const std::vector<ComparedSegment>& segments, const Series& series) {
+  std::vector<std::vector<double>> all;
+  for (const ComparedSegment& segment : segments) all.push_back(std::invoke(series, segment));
+  return all;
+}
 
 struct ComparedDrives {
   std::vector<ComparedSegment> segments;

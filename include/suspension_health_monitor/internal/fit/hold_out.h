@@ -60,8 +60,6 @@ class HoldOut {
   struct Stretch {
     std::size_t segment, first, last;  // last is one past the end
   };
-  template <class Loss>
-  std::vector<double> sumByStretch(const Residuals& residuals, const Loss& loss) const;
 
   std::vector<Stretch> stretches_;
   double samples_ = 0.0;

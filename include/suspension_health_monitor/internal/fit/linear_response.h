@@ -14,6 +14,9 @@ struct SegmentedMotion {
   std::vector<double> rests;         ///< [s], rests[i] between segment i and the next; empty: unknown
 };
 
+/// @return rms of travel and travel rate, and the natural time of a strut.
+MotionScale scaleOf(const SegmentedMotion& motion, double stiffness_to_mass);
+
 /// The force of an effect, per unit of its coefficient, at every sample of a motion; the memory starts at 0 in every
 /// segment, or with what lasts.
 Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes, const SegmentedMotion& motion);
@@ -30,14 +33,12 @@ Eigen::MatrixXd forcesAlong(const StrutModel& model, const SegmentedMotion& moti
 /// Samples of all segments of all records stand in one row, in the order of ModelFit::residuals.
 class LinearResponse {
  public:
-  /// @param fit  a fit of these records that did not run away. Both must outlive this object.
+  /// @param records  must outlive this object.  @param fit  a fit of them that did not run away.
   LinearResponse(const Records& records, const ModelFit& fit);
 
   Eigen::Index numSamples() const { return motion_.samples.size(); }
   const SegmentedMotion& motion() const { return motion_; }
-  double travel() const { return travel_; }           ///< rms [m]
-  double travelRate() const { return travel_rate_; }  ///< rms [m/s]
-  const ModelFit& fit() const { return *fit_; }
+  const MotionScale& scale() const { return scale_; }
 
   /// @return change of z'' at every sample for an additional force `f` [m/s^2].
   Eigen::VectorXd respond(const Eigen::VectorXd& force) const;
@@ -47,11 +48,8 @@ class LinearResponse {
   Eigen::MatrixXd readingSlopes(const MeasurementEffect& effect) const;
 
  private:
-  void measureSizes();
-
-  const ModelFit* fit_;
   double period_;
-  double travel_ = 0.0, travel_rate_ = 0.0;
+  MotionScale scale_;
   SegmentedMotion motion_;
   std::vector<double> predicted_;
   std::vector<double> slope_travel_, slope_rate_;  // F_d [1/s^2], F_v [1/s]

@@ -28,8 +28,8 @@ Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
 double meanOf(const Residuals& residuals);
 double meanSquare(const Residuals& residuals);
 
-/// FreeRun::follow() over a segment, with the filter that its signals have passed and the faults of the reading that
-/// the model has.
+/// Runs a model over a segment from a state, as FreeRun does; what it predicts has passed the filter of the segment's
+/// signals and has the faults of the reading that the model has.
 /// @param state  lead() samples before the first one.
 /// @param predicted  z'' at every sample [m/s^2]; resized.
 /// @param motion  travel and travel rate at every sample, if wanted.

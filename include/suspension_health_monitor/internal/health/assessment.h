@@ -48,13 +48,13 @@ class HealthAssessment {
   /// The strut is one of three or more of a vehicle. Counts from the next update().
   /// @param others  the damping's change that all other struts share; empty: not known yet, as at the first judgement,
   /// which therefore raises no WARN for the damping.
-  void setOthers(const std::optional<LogChange>& others) {
+  void setOthers(const std::optional<Measured>& others) {
     others_ = others;
     awaits_others_ = !others;
   }
 
   /// @return ln of damping over the healthy strut's by the newest estimate, without a load; empty: not known.
-  const std::optional<LogChange>& dampingChange() const { return damping_change_; }
+  const std::optional<Measured>& dampingChange() const { return damping_change_; }
 
   /// LS as it is now, to be called for each check of the sensors.
   void watch(const StrutEstimate& ls) { outlying_ += ((ls.tails > kHeavy ? 1.0 : 0.0) - outlying_) / kOutlyingMemory; }
@@ -96,10 +96,9 @@ class HealthAssessment {
   double since_early_ = 0.0;    // seconds since the early warning saw the newest change
   std::optional<Stamp> taken_;  // when the newest estimate came
   HealthReport judged_;         // what that estimate says
-  HealthLevel level_ = HealthLevel::kStale;
   Stamp report_stamp_{};
   SensorReport sensor_;
-  std::optional<LogChange> others_, damping_change_;
+  std::optional<Measured> others_, damping_change_;
   bool awaits_others_ = false;
   HealthReport report_;
 };

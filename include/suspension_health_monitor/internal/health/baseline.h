@@ -17,17 +17,11 @@ Baseline baselineOf(const StrutEstimate& estimate, Stamp stamp);
 /// @return the healthy strut by nominal values; empty parts: not given.
 Baseline nominalOf(const HealthThresholds& options);
 
-/// What the present strut has changed by, wherever it drives.
-struct ChangeFromBaseline {
-  MeasuredChange change;
-  bool is_mostly_friction = false;  ///< its damping is uncertain mostly by what friction makes of another road
-};
-
-/// The change from the healthy strut, each with its standard deviation. Dampers are compared as they act on a road
+/// The change of the present strut from the healthy one, wherever it drives. Dampers are compared as they act on a road
 /// between the present one and the baseline's: friction f counts as f m, m the mean of the gains g of both. Where the
 /// law is not Coulomb's, f changes with the road, and what lies between both is not known to (f - f_n) (g - g_n) / 2.
 /// Empty parts: no healthy value, no estimate, or one that is not above 0.
-ChangeFromBaseline changeFrom(const Baseline& healthy, const StrutEstimate& now);
+MeasuredChange changeFrom(const Baseline& healthy, const StrutEstimate& now);
 
 /// Learns the baseline from a stretch of valid estimates: their mean, over halves that must agree.
 ///

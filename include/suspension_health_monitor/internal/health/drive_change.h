@@ -31,7 +31,7 @@ struct DriveChange {
 /// any of the nodes with a probability of kFalseAlarm (Bonferroni), and if it is above kLeastChange of the force. A
 /// range goes on over nodes where the difference has the same sign but is not proven, if it is proven further out.
 /// @param mass  of the body, over that of the other drive, by which forces over mass are compared as forces.
-CurveChange changeOf(const ForceCurve& now, const ForceCurve& other, const LogChange& mass = {0.0, 0.0});
+CurveChange changeOf(const ForceCurve& now, const ForceCurve& other, const Measured& mass = {0.0, 0.0});
 
 /// @param now, other  valid.  @param payload_range  as splitChange().
 DriveChange changeOf(const StrutEstimate& now, const StrutCurves& curves, const StrutEstimate& other,

@@ -6,15 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-/// A value against the one of the healthy strut.
-struct LogChange {
-  double size;    ///< ln(value / healthy)
-  double stddev;  ///< of size; NaN: not known
-};
 
 /// @param range  the smallest and the largest of several changes.
 /// @return the change that all of them have in common: the smallest in size; 0 if they differ in sign.
@@ -22,10 +17,11 @@ inline double nearestToNone(const std::pair<double, double>& range) {
   return std::clamp(0.0, range.first, range.second);
 }
 
-/// Both parameters against those of the healthy strut.
+/// Both parameters against those of the healthy strut, as ln(value / healthy).
 struct MeasuredChange {
-  std::optional<LogChange> damping, stiffness;  ///< x1, x0, of whatever cause; empty: cannot be judged
-  double correlation = 0.0;                     ///< of the errors of x1 and x0 [-]
+  std::optional<Measured> damping, stiffness;  ///< x1, x0, of whatever cause; empty: cannot be judged
+  double correlation = 0.0;                    ///< of the errors of x1 and x0 [-]
+  bool is_mostly_friction = false;             ///< x1 is uncertain mostly by what friction makes of another road
 };
 
 /// The load that explains both changes best, and how well.
@@ -66,21 +62,19 @@ LoadAlone explainByLoad(const MeasuredChange& both, const std::pair<double, doub
 /// @param known_load  q.
 StrutChange splitChange(const MeasuredChange& measured, double payload_range, double known_load);
 
+/// @return a report of these changes and their standard deviations, and of nothing else.
+HealthReport reportOf(const StrutChange& change);
+
 /// Lets a level pass once it has lasted for the confirm time. While levels alternate that are all worse (or all better)
 /// than the confirmed one, the one nearest to it counts as lasting, so that noise at a threshold hides nothing.
 /// Cost per level: O(1), no allocation.
 class LevelConfirmation {
  public:
-  explicit LevelConfirmation(Stamp confirm_time) : confirm_time_(confirm_time) {}
-
-  void setConfirmTime(Stamp confirm_time) { confirm_time_ = confirm_time; }
-
   /// @param stamp  stamps that go back restart the confirmation.
   /// @return the confirmed level.
-  HealthLevel update(Stamp stamp, HealthLevel now);
+  HealthLevel update(Stamp stamp, HealthLevel now, Stamp confirm_time);
 
  private:
-  Stamp confirm_time_;
   HealthLevel confirmed_ = HealthLevel::kStale;
   HealthLevel pending_ = HealthLevel::kStale;
   Stamp pending_since_{};
@@ -131,7 +125,7 @@ class ChangeTrend {
   /// @param now  a time that increases [s].  @param window  span of the data [s].
   /// @param certain  standard deviations that a slope must have to be one.
   /// @return the change as it is now.
-  LogChange carryOn(const LogChange& change, double age, double now, double window, double certain);
+  Measured carryOn(const Measured& change, double age, double now, double window, double certain);
 
   void restart() { points_.clear(); }
 

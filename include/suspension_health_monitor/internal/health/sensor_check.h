@@ -64,7 +64,6 @@ class SensorCheck {
   bool isStill(const Reading& reading) const { return 2.0 * reading.still >= memory_; }
   SensorFault find(const StrutEstimate& estimate, const StrutEstimate& la, bool la_tells) const;
   bool isInG() const;
-  static SensorFault judgeGains(const StrutEstimate& estimate);
   SensorFault judgeMotion(const StrutEstimate& la) const;
 
   double memory_;

@@ -83,7 +83,7 @@ class LinearIntegralFilter {
   }
 
   /// @return true once a window of samples has been pushed: initial conditions no longer reach the output.
-  bool full() const { return missing_ == 0; }
+  bool full() const { return lines_.front().full(); }
 
   /// @param derivative  r, lowest_derivative <= r <= n.
   /// @return I_r^n x, n lateness samples ago [unit of x times s^(n-r)].
@@ -95,8 +95,6 @@ class LinearIntegralFilter {
   int order_;
   int horizon_;
   int lateness_;  // of every factor [samples]
-  int window_;
-  int missing_;  // samples until it is full
   std::vector<HorizonIntegral> integrals_;
   std::vector<DelayLine> lines_;  // lines_[i] holds J^i x
 };

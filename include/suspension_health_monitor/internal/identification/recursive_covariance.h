@@ -9,6 +9,12 @@
 
 namespace suspension_health_monitor {
 
+/// Where a parameter comes from when the columns of a regression change.
+struct ColumnOrigin {
+  std::optional<int> before;  ///< its number before the change; none: it is new
+  double start = 0.0;         ///< what a new one starts from [unit of the parameter]
+};
+
 /// The covariance P of the recursions (16) and (25), held as P = U D U' with U unit upper triangular and D diagonal.
 /// In this form P is symmetric by construction, and stays positive because the update only multiplies D by positive
 /// numbers; the textbook form (16) loses both to rounding.
@@ -21,9 +27,8 @@ class UdCovariance {
   /// @param size  p >= 1, number of parameters.
   explicit UdCovariance(int size);
 
-  /// P of other parameters: parameter i of the new ones is parameter sources[i] of `before`, or is new and has the
-  /// variance 0 until release().
-  UdCovariance(const UdCovariance& before, const std::vector<std::optional<int>>& sources);
+  /// P of other parameters, of which a new one has the variance 0 until release().
+  UdCovariance(const UdCovariance& before, const std::vector<ColumnOrigin>& columns);
 
   int size() const { return static_cast<int>(diagonal_.size()); }
 
@@ -49,13 +54,9 @@ class UdCovariance {
   void scale(double factor);
 
   /// @return P_ii.
-  double variance(int i) const { return entry(i, i); }
-
-  /// @return P_ij.
-  double entry(int i, int j) const {
-    double sum = 0.0;
-    for (Eigen::Index k = std::max(i, j); k < diagonal_.size(); ++k) sum += upper_(i, k) * upper_(j, k) * diagonal_[k];
-    return sum;
+  double variance(int i) const {
+    const int above = size() - i;  // the rest of the row of U is 0
+    return upper_.row(i).tail(above).cwiseAbs2().dot(diagonal_.tail(above));
   }
 
   /// @return P, (p, p).
@@ -85,11 +86,11 @@ class BatchScatter {
         squares_(sum_),
         ratios_(num_parameters, RunningMean(1.0 - 1.0 / kBatches)) {}
 
-  /// Of other parameters, knowing of those that stay what was known: number i was number sources[i], or is new.
-  BatchScatter(const BatchScatter& before, const std::vector<std::optional<int>>& sources)
-      : BatchScatter(static_cast<int>(sources.size()), before.correlated_rows_) {
-    for (std::size_t i = 0; i < sources.size(); ++i)
-      if (sources[i]) ratios_[i] = before.ratios_[*sources[i]];
+  /// Of other parameters, knowing of those that stay what was known.
+  BatchScatter(const BatchScatter& before, const std::vector<ColumnOrigin>& columns)
+      : BatchScatter(static_cast<int>(columns.size()), before.correlated_rows_) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].before) ratios_[i] = before.ratios_[*columns[i].before];
   }
 
   /// @param gain  of the row, by parameter.

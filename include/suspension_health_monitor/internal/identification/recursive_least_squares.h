@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/identification/recursive_covariance.h"
@@ -22,23 +21,17 @@ struct RecursiveOptions {
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
   InitialVariance initial_variance_rule = InitialVariance::kRelative;
   int correlated_rows = 0;  ///< up to how many rows apart residuals are correlated, >= 0; 0: they are white
-  /// Parameter whose column has a drifting offset. The last two parameters are then the offset times that parameter, as
-  /// it is now, and its step per row. None: there are no such two.
-  std::optional<int> drifting = std::nullopt;
+  /// The last two parameters are those of an offset o that drifts: c_o = -b0 o, with o at the newest row, and by how
+  /// much c_o grows per row.
+  bool drifting_offset = false;
 
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   void validate() const;
 };
 
-/// Where a parameter comes from when the columns of a regression change.
-struct ColumnOrigin {
-  std::optional<int> before;  ///< its number before the change; none: it is new
-  double start = 0.0;         ///< what a new one starts from [unit of the parameter]
-};
-
 /// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight. Another
 /// estimator derives from it and has, as RecursiveLeastSquares in recursive.cpp,
-///     double update(const RegressionRow& row);      // saysNothing(), drift(), innovate(), releaseExcited(), correct()
+///     double update(const RegressionRow& row);      // saysNothing(), drift(), observe(), releaseExcited(), correct()
 ///     double parameterVariance(int i) const;        // varianceAt()
 class RecursiveEstimator {
  public:
@@ -62,8 +55,8 @@ class RecursiveEstimator {
   void interrupt() { scatter_.interrupt(); }
 
   /// Takes a row into the running means only: neither does the estimate move nor is anything forgotten.
-  /// @return the innovation psi - phi' theta, in the unit of psi.
-  double observe(const RegressionRow& row) { return innovate(row); }
+  /// @return the innovation epsilon = psi - phi' theta, Eq. (15) and (24), in the unit of psi.
+  double observe(const RegressionRow& row);
 
   /// @return sum of lambda^(k-i): the number of rows that the estimate rests on.
   double effectiveRows() const { return means_.weight(); }
@@ -80,21 +73,16 @@ class RecursiveEstimator {
  protected:
   /// To be called before each row that is not only observed: what drifts has moved since the one before.
   void drift() {
-    if (!options_.drifting) return;
+    if (!options_.drifting_offset) return;
     const int rate = numParameters() - 1;
     theta_[rate - 1] += theta_[rate];
     covariance_.addTo(rate - 1, rate);
   }
 
-  /// epsilon = psi - phi' theta, Eq. (15) and (24); also takes the row into the running means.
-  double innovate(const RegressionRow& row);
-
   /// Gives each parameter whose regressor is not 0 for the first time its start variance; before correct().
   /// @param residual_variance  what turns P_ii into the variance of theta_i.
   /// @param unit  factor from the P of LS to that of this estimator: 1, of LA mean |epsilon|.
-  void releaseExcited(const RegressionRow& row, double residual_variance, double unit) {
-    if (num_released_ < numParameters()) release(row.regressor, residual_variance, unit);
-  }
+  void releaseExcited(const RegressionRow& row, double residual_variance, double unit);
 
   /// theta <- theta + gain epsilon.
   /// @param weight  w: the row counts as w rows do in LS.
@@ -113,11 +101,8 @@ class RecursiveEstimator {
   BatchScatter scatter_;
 
  private:
-  void release(const Eigen::VectorXd& regressor, double residual_variance, double unit);
-
   enum Mean : std::size_t { kAbsoluteResidual, kSquareResidual, kAbsoluteOutput, kNumMeans };
 
-  int num_released_ = 0;
   RunningMeans<kNumMeans> means_;
 };
 

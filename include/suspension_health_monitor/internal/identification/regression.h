@@ -21,32 +21,21 @@ struct RegressionRow {
 /// Position of the strut's own parameters in theta, Eq. (30).
 enum StrutParameter : int { kDampingToMass = 0, kStiffnessToMass = 1, kNumStrutParameters = 2 };
 
-/// What of the two sensors is estimated beside the strut.
-enum class SensorColumns {
-  kNone,           ///< nothing, as in the paper
-  kOffset,         ///< c_o
-  kDriftingOffset  ///< c_o of the newest reading and its step from row to row, in this order
-};
-
-/// @return how many columns these are.
-constexpr int count(SensorColumns columns) {
-  return columns == SensorColumns::kNone ? 0 : columns == SensorColumns::kOffset ? 1 : 2;
-}
-
 /// Rows of the strut regression from the two accelerations, Eq. (28)-(30), with a column more for every effect:
 ///   I_2^2 y = b1 I_1^2 u + b0 I_0^2 u + sum_j c_j I_2^2 f_j + c_o h^2 + e,   y = z'' [m/s^2], u = w'' - z'' [m/s^2],
 /// with b1 = beta/M [1/s] and b0 = K/M [1/s^2]. It is the model (27) differentiated twice, so that only accelerations
 /// occur, under the twofold integral, so that nothing is differentiated in fact.
 /// The effects' f_j, per unit of c_j, come from an observer of the travel (free_run.h).
 /// A constant in y vanishes from psi; a constant common to both sensors vanishes from u. A constant o in u, the offset
-/// between the sensors, adds h^2 o to the column of b0 and vanishes from that of b1; the last column, if it is wanted,
-/// takes it out again: c_o = -b0 o. One that drifts by r in a row is that of m rows ago in the middle of the window, so
-/// that c_r = -b0 r has the column -m h^2. Cost per sample: O(1), no allocation.
+/// between the sensors, adds h^2 o to the column of b0 and vanishes from that of b1; two more columns, if they are
+/// wanted, take it out again: c_o = -b0 o of the newest reading, and, as one that drifts by r in a row is that of m
+/// rows ago in the middle of the window, c_r = -b0 r with the column -m h^2. Cost per sample: O(1), no allocation.
 class SuspensionRegression {
  public:
+  /// @param drifting_offset  true: the last two columns are c_o and c_r.
   /// @param effect_derivative  0: the effects' columns are I_0^2 f_j, as if f_j were an acceleration.
   explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
-                                SensorColumns sensors = SensorColumns::kNone, int effect_derivative = 2);
+                                bool drifting_offset = false, int effect_derivative = 2);
 
   /// Takes in the next sample of an uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
@@ -57,13 +46,11 @@ class SuspensionRegression {
   void reset();
 
  private:
-  void fillSensors(double* column);
-
   LinearIntegralFilter sprung_;
   LinearIntegralFilter relative_;
   std::vector<LinearIntegralFilter> effects_;
   int effect_derivative_;
-  SensorColumns sensors_;
+  bool drifting_offset_;
   double offset_gain_;  // h^2 [s^2]
   double drift_rows_;   // from the middle of the window to the newest reading
   RegressionRow row_;

@@ -25,6 +25,15 @@ inline constexpr double kSmall = 0.1;
 /// Smallest share of an error, or of what the struts do, that is worth a name.
 inline constexpr double kWorthHaving = 0.02;
 
+/// A number and its standard deviation.
+struct Measured {
+  double value = 0.0;
+  double stddev = 0.0;  ///< NaN: not known
+
+  bool isKnown() const { return std::abs(value) > kLikely * stddev; }  ///< it is not by chance
+  double most() const { return std::abs(value) + kLikely * stddev; }   ///< magnitude that it is likely to be below
+};
+
 /// Relative difference of rounded numbers that would be equal.
 inline constexpr double kRounding = 1e-9;
 

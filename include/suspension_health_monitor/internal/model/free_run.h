@@ -12,15 +12,6 @@
 
 namespace suspension_health_monitor {
 
-/// The wheel's motion over an uninterrupted stretch of a recorded drive.
-struct RecordedWheel {
-  const std::vector<WheelStep>& steps;  ///< one per integration step, from the first sample to the last
-  double start;                         ///< time of the first sample, as laws count it [s]
-  double period;                        ///< T [s]
-  int steps_per_sample;
-  std::size_t num_samples;
-};
-
 /// A free run has run away when its prediction is so many times as large as the largest acceleration that was measured.
 inline constexpr double kRunaway = 1e3;
 
@@ -32,7 +23,7 @@ void requireUsable(const std::vector<ActiveEffect>& effects);
 ///   d'' = w''_measured - z''_model,   z''_model = b1 v + b0 d + sum_j c_j f_j(d, v, t, s_j).
 /// The spring holds the travel d, so nothing drifts, unlike an integration of the accelerations; the prediction is free
 /// of the noise on the body's sensor. It is the prediction that is compared with the measurement, the observer of the
-/// travel that effects depend on, the source of instruments, and over recorded drives the core of output-error fits.
+/// travel that effects depend on, the source of instruments. Fits run the same over recorded drives (runFree()).
 ///
 /// Between samples w'' is interpolated from as many samples after an instant as before it, as a causal interpolation
 /// would leave errors of the size of the sensor noise on a rough road: the run answers kDelay samples late.
@@ -52,13 +43,9 @@ class FreeRun {
 
   /// Changes the linear part if it is stable and the sampling can follow it: b1 > 0, b0 > 0, at most 32 steps per
   /// sample. The spring's force b0 d and the travel rate go on.
+  /// @param damping_to_mass  b1 [1/s].  @param stiffness_to_mass  b0 [1/s^2].
   /// @return whether it is so; if false, the model stays as it was.
   bool trySetModel(double damping_to_mass, double stiffness_to_mass);
-
-  /// As trySetModel().
-  /// @param damping_to_mass  b1 [1/s].  @param stiffness_to_mass  b0 [1/s^2].
-  /// @throws std::invalid_argument  naming the value that makes the model unacceptable.
-  void setModel(double damping_to_mass, double stiffness_to_mass);
 
   /// Replaces the model's effects; the run goes on, their memories start at 0. Allocates.
   /// @throws std::invalid_argument  as requireUsable().
@@ -67,14 +54,7 @@ class FreeRun {
   /// Changes c_j [unit of the effect's coefficient].
   void setCoefficient(std::size_t j, double coefficient) { model_.effects[j].coefficient = coefficient; }
 
-  /// A run over a recorded stretch from a given state, with the same integration: for fits and comparisons.
-  /// @param bound  a prediction beyond it means that the model runs away [m/s^2].
-  /// @param predicted  z'' at every sample [m/s^2]; resized.  @param motion  the states, if wanted; resized.
-  /// @return false if the model runs away: it is not stable under this drive.
-  static bool follow(const StrutModel& model, const RecordedWheel& wheel, StrutState state, double bound,
-                     std::vector<double>& predicted, std::vector<StrutState>* motion = nullptr);
-
-  bool hasModel() const { return steps_.count > 0; }
+  bool hasModel() const { return steps_ != nullptr; }
   const StrutModel& model() const { return model_; }
 
   /// Takes in the next sample of an uninterrupted uniform series of w'' [m/s^2].
@@ -102,19 +82,11 @@ class FreeRun {
 
  private:
   bool withEffects() const { return !model_.effects.empty(); }
-  void split(double steps);
   void advance(double time);
   double predict(double time);
   void countTravelFrom(double offset);
   void startAnew(double time);
   bool ranAway(double prediction);
-
-  /// How a sample is split into steps of integration.
-  struct Steps {
-    const WheelInterpolator* first = nullptr;
-    int count = 0;        // 0: no model yet
-    double length = 0.0;  // [s]
-  };
 
   /// A mean with a memory.
   struct Mean {
@@ -128,8 +100,8 @@ class FreeRun {
 
   double period_;
   StrutModel model_;
-  Steps steps_;
-  double decay_rate_ = 0.0;  // of the slowest free motion [1/s]
+  const std::vector<WheelInterpolator>* steps_ = nullptr;  // of integration in a sample; none: no model yet
+  double decay_rate_ = 0.0;                                // of the slowest free motion [1/s]
   StrutState state_;
   std::array<double, kMostEffects> forces_{};
   DelayLine input_{WheelInterpolator::kWidth};  // w''

@@ -40,6 +40,12 @@ inline bool canFollow(const StrutModel& model, double period) {
   return stepsPerSample(model.damping_to_mass, model.stiffness_to_mass, period) <= kMostStepsPerSample;
 }
 
+/// @return how fast the slowest free motion of the linear strut decays [1/s].
+inline double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
+  const double half = damping_to_mass / 2, discriminant = half * half - stiffness_to_mass;
+  return discriminant > 0.0 ? stiffness_to_mass / (half + std::sqrt(discriminant)) : half;  // of two real roots
+}
+
 /// Turns samples of w'' into wheel steps.
 class WheelInterpolator {
  public:

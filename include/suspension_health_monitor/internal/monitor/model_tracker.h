@@ -90,14 +90,12 @@ class ModelTracker {
   bool addRow(const CornerSample& sample, ModelReport& report);
   void judge(ModelReport& report);
   EstimateFacts factsOf(const StrutEstimate& estimate, bool has_estimate) const;
-  void judgeBlocks(StrutEstimate& estimate) const;
   void takeModel(const ModelReport& report);
   void fallBack();
   void compare(const CornerSample& sample, const std::optional<double>& predicted, ModelReport& report);
 
   bool is_paper_;
-  BlockOptions block_options_;
-  double period_, oldest_data_;  // [s]
+  double block_length_, period_, oldest_data_;  // [s]
   std::optional<VehicleBlocks> blocks_;
   /// Of the newest block estimate.
   struct Newest {

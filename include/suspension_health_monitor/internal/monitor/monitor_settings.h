@@ -1,11 +1,9 @@
 #pragma once
 
 #include "suspension_health_monitor/internal/base/option_table.h"
-#include "suspension_health_monitor/internal/blocks/block_bins.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"
 
@@ -14,9 +12,9 @@ namespace suspension_health_monitor {
 /// What a preset sets and no option can: how rows are made, and how the estimators begin, weigh and forget.
 struct EstimatorOptions {
   IntegrationRule rule = IntegrationRule::kBandLimited;
-  SensorColumns sensors = SensorColumns::kDriftingOffset;  ///< what of the sensors is estimated with the strut
+  bool drifting_offset = true;     ///< of the sensors: it is estimated with the strut (SuspensionRegression)
   bool forgets_unexcited = false;  ///< true: rows of a parked vehicle count, too, as in the paper
-  RecursiveOptions recursive;      ///< whose forgetting factor and correlated rows are set for each estimator
+  RecursiveOptions recursive;      ///< whose forgetting factor, correlated rows and offset are set for each estimator
   LeastAbsoluteOptions least_absolute;
 };
 
@@ -73,7 +71,6 @@ struct MonitorSettings : MonitorOptions {
   /// @param period  sampling time [s].
   /// @return so many horizons of rows, or nine tenths of a shorter memory.
   double fewestRows(double horizons, double period) const;
-  const LeastAbsoluteOptions& leastAbsolute() const { return estimators.least_absolute; }
   HealthOptions health() const { return {static_cast<const HealthThresholds&>(*this)}; }
 };
 

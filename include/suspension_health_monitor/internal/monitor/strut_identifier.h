@@ -64,7 +64,7 @@ class StrutIdentifier {
   double coefficient(std::size_t j) const { return least_absolute_.parameters()[kNumStrutParameters + j]; }
 
  private:
-  int numModelColumns() const { return least_absolute_.numParameters() - count(sensors_); }  // all but the sensors'
+  int numModelColumns() const { return least_absolute_.numParameters() - offset_columns_; }
   void update(const RegressionRow& row);
 
   /// Calls act(estimator) with each.
@@ -75,7 +75,7 @@ class StrutIdentifier {
   }
 
   IntegralFilterOptions filter_;
-  SensorColumns sensors_;
+  int offset_columns_;      // the last ones, of the sensors
   bool forgets_unexcited_;  // true: rows of a parked vehicle count, too
   SuspensionRegression regression_;
   RecursiveLeastSquares least_squares_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/circular_buffer.hpp>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -7,9 +8,12 @@
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
+#include "suspension_health_monitor/internal/health/sensor_check.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
+#include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor/model_tracker.h"
 #include "suspension_health_monitor/internal/monitor/monitor_settings.h"
-#include "suspension_health_monitor/internal/monitor/sample_series.h"
+#include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {
 
@@ -53,8 +57,8 @@ class SuspensionMonitor {
   void addTemperature(Stamp stamp, double celsius);
 
   /// As HealthAssessment::setOthers(), dampingChange().
-  void setOthers(const std::optional<LogChange>& others) { health_.setOthers(others); }
-  const std::optional<LogChange>& dampingChange() const { return health_.dampingChange(); }
+  void setOthers(const std::optional<Measured>& others) { health_.setOthers(others); }
+  const std::optional<Measured>& dampingChange() const { return health_.dampingChange(); }
 
   /// While the newest blocks of elsewhere say nothing of the strut LS and LA stay as they are.
   void hold(bool holds) { plain_.hold(holds); }
@@ -88,15 +92,16 @@ class SuspensionMonitor {
   const StrutEstimate& modelEstimate() const { return options_.preset == "paper" ? report_.la : report_.estimate; }
 
   const MonitorReport& report() const { return report_; }
-  const InputStatus& input() const { return series_.status(); }
-  const RejectCounts& rejected() const { return series_.rejected(); }
+  const InputStatus& input() const { return input_; }
+  const RejectCounts& rejected() const { return rejected_; }
   const MonitorSettings& options() const { return options_; }
   /// @return lambda of LS and LA.
   double forgettingFactor() const { return tracker().forgettingFactor(); }
-  double period() const { return toSeconds(series_.period()); }
+  double period() const { return toSeconds(period_); }
   int horizonSamples() const { return horizon_samples_; }
 
  private:
+  std::optional<Continuity> follow(const CornerSample& sample);
   const CornerSample* track(const CornerSample& sample);
   void judgeSensors();
   template <class Change>
@@ -105,7 +110,12 @@ class SuspensionMonitor {
 
   MonitorSettings options_;
   int horizon_samples_;
-  SampleSeries series_;
+  Stamp period_;
+  std::optional<Stamp> first_, last_;                                 // samples of the drive
+  boost::circular_buffer<CornerSample> recent_{FreeRun::kDelay + 1};  // of the uninterrupted series
+  RunningMean spacing_;                                               // of uninterrupted samples [s]
+  InputStatus input_;
+  RejectCounts rejected_;
   ModelTracker plain_;
   std::optional<ModelTracker> extended_;  // with effects
   ModelReport base_;                      // of the plain model while there is an extended one

@@ -27,7 +27,7 @@ enum TyreParameter : int {
 /// column more. All three parameters are positive. A constant common to all sensors vanishes.
 class TyreRegression {
  public:
-  explicit TyreRegression(const IntegralFilterOptions& options) : rows_(options, 1, SensorColumns::kNone, 0) {}
+  explicit TyreRegression(const IntegralFilterOptions& options) : rows_(options, 1, false, 0) {}
 
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param road_acceleration  mu'' where the tyre touches the road, up positive [m/s^2].
@@ -62,7 +62,6 @@ class TyreTracker {
   const TyreReport& report() const { return report_; }
 
  private:
-  bool continues(Stamp stamp) const;
   void estimate(const RegressionRow& row);
   void judge();
 

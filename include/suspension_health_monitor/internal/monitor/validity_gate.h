@@ -26,8 +26,8 @@ struct EstimateFacts {
   double oldest = std::numeric_limits<double>::infinity();  ///< that may still count [s]
   bool agrees = true;                                       ///< with the block estimate, as agree() says
   bool free_run_fails = false;  ///< the free run fits the body's motion worse than a constant does
-  double absolute_stddev =
-      0.0;  ///< relative, the larger one of b1 and b0, with the model's error [-]; infinite: a dead gyro
+  /// relative, the larger one of b1 and b0, with the model's error [-]; infinite: a dead gyro
+  double absolute_stddev = 0.0;
 };
 
 /// The one place that decides whether an estimate may be trusted.

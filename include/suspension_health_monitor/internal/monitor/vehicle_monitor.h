@@ -103,7 +103,7 @@ class VehicleMonitor {
   void beginStruts();
   void takeModels();
   void takeDeadGyro();
-  std::optional<LogChange> sharedByOthers(std::size_t strut) const;
+  std::optional<Measured> sharedByOthers(std::size_t strut) const;
   Eigen::Vector2d modelStddev(const TopEstimate& estimate) const;
 
   Stamp period_{};  // 0 until it is known

@@ -78,7 +78,6 @@ class VehiclePipeline {
  private:
   void start();
   void startOnce(double period);
-  void replayFirstReadings();
   void take(const VehicleSample& sample);
 
   VehicleStreams streams_;
@@ -89,7 +88,6 @@ class VehiclePipeline {
   std::optional<VehicleGrid> grid_;  // once the sample period is known
   std::optional<TyreTracker> tyre_;
   Stamp newest_{};
-  double road_ = std::nan("");
 };
 
 }  // namespace suspension_health_monitor

@@ -5,16 +5,9 @@
 #include <vector>
 
 #include "suspension_health_monitor/diagnose.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-
-/// By how much leaving out an effect changes a number of the linear strut, as a share of that number.
-struct RelativeChange {
-  double value = 0.0, stddev = 0.0;
-
-  bool isKnown() const;  ///< it is not by chance
-  double most() const;   ///< magnitude that it is likely to be below
-};
 
 /// What an effect that was found does to b1 and b0 if a model leaves it out.
 struct EffectCost {
@@ -22,7 +15,8 @@ struct EffectCost {
   std::string size;          ///< of a sensor's fault with one coefficient, in words: "1.2 ms"; else empty
   std::string advice;        ///< of a sensor's fault
   bool fits_without = true;  ///< false: no strut fits without it, and the changes are unknown
-  std::optional<RelativeChange> damping, stiffness;  ///< nothing: b1 or b0 is too uncertain for a share of it
+  /// By how much b1 and b0 change, as shares of them; nothing: too uncertain for a share of it.
+  std::optional<Measured> damping, stiffness;
 
   bool isHarmless() const;  ///< a sensor's fault that moves neither by 5 %: there is nothing to do
 };

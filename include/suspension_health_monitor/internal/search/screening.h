@@ -62,7 +62,7 @@ class Screening {
   Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit);
 
   /// @return the present model.
-  const StrutModel& model() const { return response_.fit().model; }
+  const StrutModel& model() const { return fit_.model; }
 
   /// @return nothing if the effect does not act in these drives or does nothing that the model cannot do already.
   std::optional<ScreenedModel> screen(const ForceEffect& effect) const;
@@ -80,6 +80,7 @@ class Screening {
   ScreenedModel expect(const WeightedProjection::Columns& columns, const WeightedProjection::Part& part) const;
 
   const Records& records_;
+  const ModelFit& fit_;
   LinearResponse response_;
   WeightedProjection rows_;  // of measured - predicted by the responses to b1, b0 and the present effects' coefficients
 };

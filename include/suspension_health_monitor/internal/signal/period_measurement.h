@@ -23,15 +23,12 @@ class PeriodMeasurement {
   explicit PeriodMeasurement(std::size_t spacings_wanted, const std::vector<bool>& is_required = {true, true, false})
       : spacings_wanted_(spacings_wanted), is_required_(is_required), streams_(is_required.size()) {}
 
-  /// @return false if the stamp is the same as the one before: it tells nothing.
-  bool add(std::size_t stream, Stamp stamp);
-  bool add(Side side, Stamp stamp) { return add(indexOf(side), stamp); }
+  /// @return what is wrong with the stamp after the one before of its stream; empty: nothing.
+  std::optional<RejectReason> add(std::size_t stream, Stamp stamp);
+  std::optional<RejectReason> add(Side side, Stamp stamp) { return add(indexOf(side), stamp); }
 
-  /// @return true if the stamp is older than the one before of its stream.
-  bool goesBack(std::size_t stream, Stamp stamp) const {
-    const std::optional<Stamp>& last = streams_[stream].last;
-    return last && stamp < *last;
-  }
+  /// Forgets all stamps.
+  void restart() { streams_.assign(streams_.size(), {}); }
 
   /// @return the sampling time [s], nothing until all required streams have shown enough spacings.
   std::optional<double> period() const;
@@ -59,21 +56,16 @@ class FirstReadings {
   };
 
   /// @param is_required  by stream; one at least.
-  /// @param most_per_stream  readings that may wait of each required stream: more, and one of them is silent.
-  FirstReadings(const std::vector<bool>& is_required, std::size_t most_per_stream)
-      : is_required_(is_required), measurement_(kSpacings, is_required), rejected_(is_required.size()) {
-    for (const bool required : is_required) most_ += required ? most_per_stream : 0;
+  explicit FirstReadings(const std::vector<bool>& is_required)
+      : measurement_(kSpacings, is_required), rejected_(is_required.size()) {
+    for (const bool required : is_required) most_ += required ? kMostWaiting : 0;
   }
 
   /// Takes in the next reading, or keeps it out.
   /// @return the sampling time [s] once it is known.
   std::optional<double> add(Reading reading) {
-    RejectCounts& rejected = rejected_[reading.stream];
-    const bool goes_back = measurement_.goesBack(reading.stream, reading.stamp);
-    if (!measurement_.add(reading.stream, reading.stamp))
-      rejected.add(reading.stamp == Stamp::zero() ? RejectReason::kZeroStamp : RejectReason::kRepeatedStamp);
-    else if (goes_back)
-      rejected.add(RejectReason::kTimeWentBack);
+    if (const std::optional<RejectReason> fault = measurement_.add(reading.stream, reading.stamp))
+      rejected_[reading.stream].add(*fault);
     else
       keep(std::move(reading));
     return measurement_.period();
@@ -92,27 +84,21 @@ class FirstReadings {
 
   bool isEmpty() const { return waiting_.empty(); }
 
-  /// @return those of one stream that were kept out, and of all.
+  /// @return those of one stream that were kept out.
   const RejectCounts& rejected(std::size_t stream) const { return rejected_[stream]; }
-  RejectCounts rejected() const {
-    RejectCounts all;
-    for (const RejectCounts& each : rejected_) all += each;
-    return all;
-  }
 
  private:
   void keep(Reading reading) {
     if (waiting_.size() == most_) {
       for (const Reading& each : waiting_) rejected_[each.stream].add(RejectReason::kMissingPartner);
       waiting_.clear();
-      measurement_ = PeriodMeasurement(kSpacings, is_required_);
+      measurement_.restart();
     }
     waiting_.push_back(std::move(reading));
   }
 
-  std::vector<bool> is_required_;
   PeriodMeasurement measurement_;
-  std::size_t most_ = 0;
+  std::size_t most_ = 0;  // that may wait: more, and a required stream is silent
   std::deque<Reading> waiting_;
   std::vector<RejectCounts> rejected_;
 };

@@ -24,7 +24,7 @@ class SamplingTest {
   void add(double value, double off);
 
   /// Readings are missing before the next one.
-  void interrupt() { in_a_row_ = 0; }
+  void interrupt() { values_.reset(); }
 
   /// @return true if that is likelier; both false: there are no readings yet, or they do not move. The sums of squares
   /// of e - r and e differ by r^2 - 2 r e.
@@ -38,7 +38,6 @@ class SamplingTest {
 
   DelayLine values_{kWindow}, off_{kWindow};
   RunningMeans<2> products_{0.9999};  // r^2, r e
-  int in_a_row_ = 0;
 };
 
 /// When the readings of one stream were taken, by their stamps: phase and period of a stream that reads regularly, by

@@ -8,16 +8,22 @@
 #include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/grid_streams.h"
-#include "suspension_health_monitor/internal/signal/grids.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/signal/stream_resampler.h"
 
 namespace suspension_health_monitor {
 
-/// Brings the readings of any number of streams onto one clock: pairs those whose stamps agree within half a sample
-/// (PairedGrid), or resamples all streams (ResampledGrid). With Alignment::kAuto it pairs until the stamps show that
-/// this does badly (AlignmentJudge), and resamples from then on. The result does not depend on the order in which the
-/// streams interleave, as long as none runs more than kMostWaiting readings ahead, so that a replay gives what the live
-/// run gave. Cost per reading: O(1) amortised in time, O(streams), no allocation.
+/// Brings the readings of any number of streams onto one clock. With Alignment::kAuto it pairs until the stamps show
+/// that this does badly (AlignmentJudge), and resamples from then on.
+/// - Paired, instants are where every required stream has a reading within half a sample of the reference's, as they
+///   are, stamped by the reference: the first stream that is required. Whether a reading of the reference has a partner
+///   in one stream does not depend on the others.
+/// - Resampled, they are those of a uniform grid, every stream by a StreamResampler. They come
+///   StreamResampler::kHalfWidth periods late, as soon as all streams reach so far ahead. After a pause that is too
+///   long to be bridged the grid starts anew as soon as all windows are full, on the same multiples of T.
+/// The result does not depend on the order in which the streams interleave, as long as none runs more than kMostWaiting
+/// readings ahead, so that a replay gives what the live run gave. Cost per reading: O(1) amortised in time, O(streams),
+/// no allocation.
 class StreamGrid {
  public:
   /// @param period  sampling time T > 0 [s].
@@ -40,8 +46,8 @@ class StreamGrid {
   const std::optional<Stamp>& taken() const { return taken_; }
 
   /// @return true if the streams are resampled, and why, if it was found out.
-  bool resamples() const { return resamples_; }
-  AlignmentJudge::Verdict verdict() const { return paired_.verdict(); }
+  bool resamples() const { return never_pairs_ || verdict() != AlignmentJudge::Verdict::kDoesWell; }
+  AlignmentJudge::Verdict verdict() const { return judge_ ? judge_->verdict() : AlignmentJudge::Verdict::kDoesWell; }
 
   /// @return the longest period of a required stream [s]. From 3/2 T on instants are missing though nothing gets lost:
   /// sample_period is too short.
@@ -58,18 +64,36 @@ class StreamGrid {
   std::uint64_t missed(std::size_t stream) const { return streams_[stream].missed; }
 
   /// @return lost readings that were interpolated over, of one stream, and of all.
-  std::uint64_t bridged(std::size_t stream) const { return resampled_.bridged(stream); }
+  std::uint64_t bridged(std::size_t stream) const { return resamplers_[stream].bridged(); }
   std::uint64_t bridged() const;
 
  private:
+  GridStream& reference() { return streams_[reference_]; }
   void dropOldest(GridStream& full);
   void startNewSeries(std::size_t first);
+  bool areWaiting() const;
+  bool mayStillCome(GridStream& optional) const;
+  bool rejectStuck();
+
+  bool pairNext();
+  bool dropTooOld();
+  bool dropLoneReference();
+  bool optionalOnesAreReady();
+  void takePaired();
+
+  bool resampleNext();
+  bool beginSeries();
+  StreamResampler::Coverage advance(Stamp t);
+  void takeResampled(Stamp t);
 
   Stamp period_;
-  bool resamples_;
-  GridStreams streams_;
-  PairedGrid paired_;
-  ResampledGrid resampled_;
+  bool never_pairs_;
+  std::size_t reference_;
+  std::vector<GridStream> streams_;
+  std::vector<bool> sensor_is_still_;
+  std::optional<AlignmentJudge> judge_;      // of kAuto; none: pairing goes on however badly it does
+  std::vector<StreamResampler> resamplers_;  // by stream
+  std::optional<Stamp> origin_, next_;       // of the resampled series, its next instant
   GridInstant instant_;
   std::optional<Stamp> taken_;
 };

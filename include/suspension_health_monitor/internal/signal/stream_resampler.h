@@ -44,21 +44,18 @@ class SmoothingSpline {
 
  private:
   static constexpr int kOpen = 5;
+  /// c_k = value - sum_i factors[i] c_(k+1+i).
+  struct Closed {
+    std::array<double, kOpen - 1> factors;
+    double value;
+  };
 
   static std::size_t place(std::int64_t k) { return static_cast<std::size_t>(k & (kKept - 1)); }
   void begin(std::int64_t first);
   void penalise(const std::array<double, kOpen>& difference);
   void penaliseNewest();
   void closeOldest();
-  void store(std::int64_t k, double coefficient) {
-    coefficients_[place(k)] = coefficients_[place(k) + kKept] = coefficient;
-  }
-
-  /// c_k = value - sum_i factors[i] c_(k+1+i).
-  struct Closed {
-    std::array<double, kOpen - 1> factors;
-    double value;
-  };
+  void eliminateOldest(Closed& closed);
 
   bool empty_ = true;
   std::int64_t oldest_open_ = 0, settled_ = 0;

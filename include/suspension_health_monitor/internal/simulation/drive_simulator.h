@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
@@ -41,12 +42,14 @@ class DriveSimulator {
   };
 
   double readBody(double t, const Sway& sway);
+  Sway withNoise(Sway sway);
 
   Scenario scenario_;
   ScheduledSensor sprung_, unsprung_;
   Accelerometer road_;
   BodySway sway_;
-  SwaySensor sway_sensor_;
+  std::array<double, 2> sway_noise_;  // of its acceleration, of its angular rate; none where it has no such motion
+  RandomStream sway_random_;
   SimulatedFaults faults_;
   VehicleMotion now_, delayed_;  // delayed: as the body's IMU sees it, faults_.delay ago
 };

@@ -90,18 +90,6 @@ class Accelerometer {
   double clock_rate_;
 };
 
-/// The other axes of the body's IMU: adds noise to those that have any motion.
-class SwaySensor {
- public:
-  explicit SwaySensor(const SimulationOptions& options);
-
-  Sway read(Sway sway);
-
- private:
-  double acceleration_noise_, rate_noise_;  // [m/s^2], [rad/s]
-  RandomStream random_;
-};
-
 /// What is wrong with the body's IMU.
 struct SimulatedFaults {
   double delay = 0.0;                ///< it reads what was so long ago [s]

@@ -97,9 +97,8 @@ struct Vehicle {
   bool pitches() const;  ///< some strut is ahead of or behind the centre of gravity
   bool rolls() const;    ///< some strut is beside it
 
-  /// @return vertical acceleration at (x, y) of the body per unit of vertical force at (x_force, y_force) [1/kg].
-  double mobility(double x, double y, double x_force, double y_force) const;
-  double mobility(const VehicleStrut& at, const VehicleStrut& of) const { return mobility(at.x, at.y, of.x, of.y); }
+  /// @return a_ij, vertical acceleration of the body at a strut per unit of the force of another (or its own) [1/kg].
+  double mobility(const VehicleStrut& at, const VehicleStrut& of) const;
 
   /// @return place in `struts`.  @throws std::invalid_argument  naming the unknown name and the known ones.
   std::size_t strutNamed(const std::string& name) const;

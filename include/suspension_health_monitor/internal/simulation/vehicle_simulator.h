@@ -91,16 +91,15 @@ class VehicleSimulator {
   const Vehicle& vehicle() const { return vehicle_; }
 
  private:
-  Accelerometer sensorAt(Accelerometer::Place place, std::size_t index) const;
   std::optional<SixAxisReading> readBody(double t);
 
   Vehicle vehicle_;
   VehicleDriveOptions options_;
   VehicleMotion motion_;
+  SensorSchedule schedule_;
   std::vector<Accelerometer> sprung_, unsprung_;
   Accelerometer body_;
   RandomStream body_noise_, gyro_noise_, force_noise_;
-  long long index_ = 0;
 };
 
 /// Changes a vehicle by settings, and takes them out of `values`: those of kVehicleFields by their names;

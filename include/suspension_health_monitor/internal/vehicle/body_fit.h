@@ -85,19 +85,15 @@ BodyInertiaResult inertiaOf(const std::optional<BodyFitResult>& fit, const Strut
 /// (1932).
 class BodyFit {
  public:
-  /// @param places  by strut, from any point of the body.  @param pairs  that a bar may join.
-  BodyFit(const StrutPlaces& places, const std::vector<StrutPair>& pairs);
-
-  /// @param places  by strut; empty: not known. Then forces at any two tops move one another alike, no more.
-  static BodyFit of(std::size_t struts, const StrutPlaces& places);
+  /// @param places  by strut, from any point of the body; empty: not known. Then forces at any two tops move one
+  /// another alike, no more.
+  BodyFit(std::size_t struts, const StrutPlaces& places);
 
   /// @param halves  rows of two sets of blocks that share no reading, by which bars must agree; empty: no bar is named.
   /// @return nothing if the solver fails.
   std::optional<BodyFitResult> fit(const BodyRows& rows, const std::vector<BodyRows>& halves = {}) const;
 
  private:
-  explicit BodyFit(std::size_t struts);
-
   struct Solution {
     BodyFitResult::Bars bars;
     double phi;
@@ -119,7 +115,7 @@ class BodyFit {
   Eigen::MatrixXd q_;                                                                   // struts by motions, scaled
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), scale_ = Eigen::Vector2d::Ones();  // of x, y
   bool sees_pitch_ = false, sees_roll_ = false;
-  std::vector<StrutPair> pairs_;
+  std::vector<StrutPair> pairs_;  // that a bar may join
 };
 
 }  // namespace suspension_health_monitor

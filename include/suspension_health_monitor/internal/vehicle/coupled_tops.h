@@ -6,9 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
-#include "suspension_health_monitor/internal/blocks/strut_equations.h"
-#include "suspension_health_monitor/internal/blocks/window_fit.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
@@ -67,6 +66,11 @@ class VehicleSpectra {
 /// travel's is the next.
 inline int neighbourColumn(std::size_t i, std::size_t j) { return 2 * static_cast<int>(j < i ? j : j - 1); }
 
+/// Column of the travel rate of strut j in the row of strut i; that of its travel is the next.
+inline int rateColumn(const BlockColumns& columns, std::size_t i, std::size_t j) {
+  return j == i ? int{kBlockDamping} : columns.firstNeighbour() + neighbourColumn(i, j);
+}
+
 /// What the model of all rows makes of the wheels alone, in the bins of one block, (B22) in doc/equations.md: with Q(s)
 /// = b1 s + b0 (matrices)
 ///     Z = (s^2 I + Q)^-1 (Q X + s^2 c F).
@@ -80,8 +84,8 @@ class CoupledTops {
   void setRows(const TopRows& rows);
   const TopRows& rows() const { return rows_; }
 
-  /// @param blocks  of all struts, of the same time.  @param first_force  among their force columns.
-  void predict(const std::vector<const StrutBlock*>& blocks, int first_force);
+  /// @param blocks  of all struts.  @param age  of the block.  @param first_force  among their force columns.
+  void predict(const std::vector<BlockEstimator>& blocks, int age, int first_force);
 
   /// @return by band what noise of power 1 of every wheel does in the equations of one strut top: that of wheel j is in
   /// the regressors s / A, 1 / A of its own travel, by T = s^2 (s^2 I + Q)^-1 in the instruments of all struts, and by
@@ -97,7 +101,6 @@ class CoupledTops {
 
   Small loopAt(Eigen::Index bin) const;  // s^2 I + Q
 
-  Modulation modulation_;
   Eigen::ArrayXcd s_;
   TopRows rows_;
   Eigen::ArrayXXcd wheels_, forces_, travel_;

@@ -8,9 +8,6 @@
 
 namespace suspension_health_monitor {
 
-/// @return the angle between two directions [rad].
-double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-
 /// How the IMU of a body is turned against upright, from the gravity in its readings.
 class BodyLevel {
  public:

@@ -16,6 +16,7 @@ using SixAxes = Eigen::Matrix<double, 6, 1>;
 /// Spectra of signals and between them.
 struct ImuSignals {
   BlockBand band;
+  Eigen::ArrayXcd s;                           ///< by bin of the band [rad/s]
   std::vector<Eigen::MatrixXcd> spectra = {};  ///< by bin of the band, signals by signals
   /// By signal the IMU: first one of each along the axis that points up [m/s^2], then three of each IMU with a gyro,
   /// angular accelerations [rad/s^2].

@@ -31,6 +31,6 @@ struct RoughStrut {
 /// @param period  sampling time [s].  @param length  of the first blocks [s].
 /// @return nothing: the drives show no damped spring.
 std::optional<RoughStrut> roughStrut(const std::vector<Drive>& drives, double period,
-                                     double length = BlockOptions().length);
+                                     double length = kBlockTuning.length);
 
 }  // namespace suspension_health_monitor

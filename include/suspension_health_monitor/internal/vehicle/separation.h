@@ -15,9 +15,6 @@ namespace suspension_health_monitor {
 /// @return the noise of a vehicle each of whose struts has two accelerometers of its own, all alike.
 SensorNoise noiseOfOwnSensors(std::size_t num_struts);
 
-/// @return the noise that is given; if it is empty, that of own sensors.
-SensorNoise knownNoise(const SensorNoise& noise, std::size_t num_struts);
-
 /// @param gyro_noise  standard deviation of a gyro's noise over that of an accelerometer's [s/m].
 /// @return the noise of a vehicle's sensors behind its StrutTops.
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise);
@@ -58,10 +55,10 @@ void dropNewest(std::vector<T>& series, std::size_t count) {
   series.erase(series.end() - static_cast<std::ptrdiff_t>(std::min(count, series.size())), series.end());
 }
 
-/// @param rows  of all tops; nullptr: not known, for this reason.  @param body  that fits them, if one was looked for.
+/// @param rows  of all tops.  @param body  that fits them, if one was looked for.
 /// @param forces  names of the known forces.
 /// @return what they say, as users see it.
-VehicleCoupling describe(const BodyRows* rows, const std::optional<BodyFitResult>& body, const std::string& why_none,
+VehicleCoupling describe(const BodyRows& rows, const std::optional<BodyFitResult>& body,
                          const std::vector<std::string>& forces);
 
 /// @return T [s]: as given, or the median spacing of the samples.

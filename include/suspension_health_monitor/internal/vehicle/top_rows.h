@@ -3,14 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
-
-/// A number and its standard deviation.
-struct Measured {
-  double value, stddev;
-};
 
 /// The tops of all struts of a body as their rows have them:
 ///     z_i'' = sum_j (b1_ij d_j' + b0_ij d_j) + sum_k c_ik f_k,  d_j = w_j - z_j.

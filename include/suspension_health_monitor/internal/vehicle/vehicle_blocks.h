@@ -45,9 +45,10 @@ struct TopEstimate : WindowEstimate {
 /// top. Of a strut alone that reading brings the estimate.
 class VehicleBlocks {
  public:
-  /// @param period  the longest sampling time of the streams [s].
+  /// @param period  the longest sampling time of the streams [s].  @param length  of the first blocks [s].
   /// @param effects  of a strut alone, whose forces are columns (pushEffects()); 0: dry friction is, of every strut.
-  VehicleBlocks(const VehicleChannels& vehicle, const BlockOptions& options, double period, std::size_t effects = 0);
+  VehicleBlocks(const VehicleChannels& vehicle, double period, double length = kBlockTuning.length,
+                std::size_t effects = 0);
 
   /// Takes in one reading. Where the stamps of a sensor go back the blocks begin anew (restart()).
   /// @return an estimate that is new; nullptr: none is.
@@ -83,9 +84,9 @@ class VehicleBlocks {
   double length() const { return length_; }  ///< T of the blocks [s]
 
   /// @return what the blocks kept say of the vehicle file, to be worked through. Allocates.
-  VehicleClaims claims() const { return claims(vehicle_.topsOfBody()); }
-  /// @param tops_of_body  if what is given as the tops' was made of the body's IMU.
-  VehicleClaims claims(const TopsOfBody& tops_of_body) const;
+  VehicleClaims claims() const { return claims(vehicle_); }
+  /// @param vehicle  as it is measured, if what was given as the tops' was made of the body's IMU.
+  VehicleClaims claims(const VehicleChannels& vehicle) const;
 
   /// @return true if the gyro of the body's IMU has died: blocks are kept out as long as it is dead.
   bool hasDeadGyro() const { return gyro_.isDead(); }
@@ -94,24 +95,15 @@ class VehicleBlocks {
   void restart();
 
  private:
-  /// The estimators of blocks of one length.
-  struct OfLength {
-    double length = 0.0;  ///< [s]
-    std::vector<BlockEstimator> estimators = {};
-
-    static double time(double length, const std::vector<BlockEstimator>& estimators) {
-      return estimators.empty() ? 0.0 : length / 2.0 * estimators.front().numBlocks();
-    }
-    double time() const { return time(length, estimators); }  ///< that the blocks cover [s]
-  };
+  static double lengthOf(const BlockEstimator& estimator) { return estimator.equations().band().length; }
+  /// @return the time that their blocks cover [s].
+  static double coveredBy(const std::vector<BlockEstimator>& estimators) {
+    return estimators.empty() ? 0.0 : lengthOf(estimators.front()) / 2.0 * estimators.front().numBlocks();
+  }
   void begin(double length);
   std::size_t size() const { return vehicle_.struts.size(); }
   bool isAlone() const { return size() == 1; }
   bool looksForFriction() const { return columns_.has_friction; }
-  /// Column of the travel rate of strut j in the row of strut i; that of its travel is the next.
-  int columnOf(std::size_t i, std::size_t j) const {
-    return j == i ? int{kBlockDamping} : columns_.firstNeighbour() + neighbourColumn(i, j);
-  }
   /// Of the known forces, among the forces' columns.
   int firstKnownForce() const { return columns_.forces - static_cast<int>(vehicle_.known_forces.size()); }
   std::optional<double> timeOf(std::size_t stream, Stamp stamp);
@@ -128,7 +120,6 @@ class VehicleBlocks {
 
   VehicleChannels vehicle_;
   std::size_t effects_;
-  BlockOptions options_;
   double period_, length_;
   BlockColumns columns_;
   std::optional<Stamp> origin_;
@@ -136,15 +127,13 @@ class VehicleBlocks {
   GyroCheck gyro_;
   std::optional<CoupledTops> model_;        // of two struts or more
   std::vector<BlockEstimator> estimators_;  // by strut, as all that follow
-  OfLength longest_;                        // of the lengths before the one that covered most, for overTheDrive()
+  std::vector<BlockEstimator> longest_;     // of the lengths before the one that covered most, for overTheDrive()
   std::vector<SlidingFriction> friction_;
   std::vector<TopEstimate> estimates_;
   std::vector<bool> has_;
-  std::vector<const StrutBlock*> blocks_;
   std::vector<std::optional<Stamp>> last_;  // by Sensor and place; then of the effects
   Modulation modulation_;
   Eigen::ArrayXXcd motions_;  // H_1, H_0 of every w'' - z''
-  Eigen::ArrayXcd motion_;    // H_1 or H_0 of one w''
   TopRows rows_;
   bool has_model_ = false;
   std::size_t to_update_ = 0;  // tops that the newest block has not come to yet

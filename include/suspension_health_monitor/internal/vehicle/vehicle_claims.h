@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -52,17 +51,14 @@ struct VehicleMistake {
 /// Noise in the columns draws all of them alike. Blocks first, then work() until it is done.
 class VehicleClaims {
  public:
-  using Spectra = std::array<Eigen::ArrayXXcd, 3>;  ///< H_p of p = 0, 1, 2, bins by struts
-
   /// @param s  of the bins of a block [rad/s].
   /// @param most_blocks  that are added.
   /// @param gyro_died  after them, by GyroCheck.
-  VehicleClaims(std::size_t forces, const Eigen::ArrayXcd& s, const TopsOfBody& tops_of_body, int most_blocks,
-                bool gyro_died);
+  VehicleClaims(const VehicleChannels& vehicle, const Eigen::ArrayXcd& s, int most_blocks, bool gyro_died);
 
   /// Adds the next older block.
-  /// @param wheels, tops  of w'' and z''.  @param forces  H_2 of the known forces, bins by forces.
-  void add(const Spectra& wheels, const Spectra& tops, const Eigen::ArrayXXcd& forces);
+  /// @param spectra  bins by, for p = 0, 1, 2, H_p of w'' of all struts and of their z''; then H_2 of the known forces.
+  void add(const Eigen::ArrayXXcd& spectra);
 
   /// Does one portion: one bin or one hypothesis, at most 1 ms for four struts.  @return true: all is done.
   bool work();
@@ -82,10 +78,10 @@ class VehicleClaims {
   }
 
  private:
-  /// Streams of all struts as they would be without a mistake, from those that were measured.
+  /// Streams of all wheels, then of all tops, as they would be without a mistake, from those that were measured.
   struct Mapping {
-    Eigen::MatrixXd wheels, tops;
-    Eigen::VectorXd delays;  ///< of wheels, then of tops [s]
+    Eigen::MatrixXd streams;
+    Eigen::VectorXd delays;  ///< of these [s]
   };
   /// A mistake of a size that is not known.
   struct Hypothesis {
@@ -116,7 +112,6 @@ class VehicleClaims {
   VehicleMistake attempt(const Hypothesis& hypothesis) const;
   std::vector<Hypothesis> hypotheses() const;  // delays first
   void addPositions(std::vector<Hypothesis>& all) const;
-  void addDelays(std::vector<Hypothesis>& all) const;
   VehicleMistake sameOrAlike() const;
   /// @return the mistake that all tops are late.
   VehicleMistake::Kind allTops() const {

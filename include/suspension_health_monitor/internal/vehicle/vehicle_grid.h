@@ -61,11 +61,9 @@ class VehicleGrid {
   RejectCounts rejected(std::size_t sensor) const;
   std::uint64_t missed(std::size_t sensor) const;
 
-  /// @return what the sensors' noise makes of the samples. The noise of the body's IMU is the measured one;
-  /// until enough was read that of kVehicleTuning. Allocates.
-  SensorNoise noise() const;
-
-  /// Writes down what the samples of a drive have gone through: noise() and the taps of their filter.
+  /// Writes down what the samples of a drive have gone through: the taps of their filter, and what the sensors' noise
+  /// makes of the samples. The noise of the body's IMU is the measured one; until enough was read that of
+  /// kVehicleTuning. Allocates.
   void describe(VehicleDrive& drive) const;
 
   /// @return instants of the grid so far.
@@ -78,8 +76,6 @@ class VehicleGrid {
   void lead(const GridInstant& instant);
   BodyLevel levelSince(std::size_t first) const;
   void turnUpright(const BodyLevel& level);
-  double deviation(std::size_t first_axis) const;
-  bool hasHeardNoise() const;
 
   Stamp period_;
   VehicleChannels vehicle_;

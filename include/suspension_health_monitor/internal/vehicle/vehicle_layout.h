@@ -55,6 +55,9 @@ struct VehicleLayout {
 /// @throws std::invalid_argument  naming what is missing, unknown, wrong, or said of two sensors.
 VehicleLayout takeVehicle(OptionMap& values);
 
+/// @throws std::invalid_argument  naming two struts that have one position.
+void requireApart(const VehicleLayout& layout);
+
 /// The streams of a vehicle, numbered: those of the body's IMU if a strut needs it, then of every strut its sprung IMU,
 /// if it has one, and its unsprung IMU, then that of the road, then the known forces, those of one topic after another.
 struct VehicleStreams {
@@ -71,6 +74,7 @@ struct VehicleStreams {
     std::size_t strut;                     ///< of an IMU of a strut its place
     std::string setting;                   ///< of the vehicle file that names the topic
     std::vector<std::size_t> fields = {};  ///< that are its forces, in kWrenchFields
+    std::vector<std::size_t> forces = {};  ///< these, by their places among the known forces
   };
 
   /// @throws std::invalid_argument  if a strut without a sprung IMU has no position: its frame has not been looked up.

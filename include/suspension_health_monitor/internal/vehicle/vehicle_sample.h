@@ -46,10 +46,6 @@ struct VehicleSample {
   CornerSample ofStrut(std::size_t i) const { return {stamp, sprung[i], unsprung[i]}; }
 };
 
-/// By strut x and y of its top [m] if the body's IMU tells the top's motion; nothing if the top has a sensor of its
-/// own.
-using TopsOfBody = std::vector<std::optional<std::array<double, 2>>>;
-
 /// Which streams of a StreamGrid are what on a vehicle. All of them but the road must be required ones.
 struct VehicleChannels {
   struct Strut {
@@ -81,12 +77,6 @@ struct VehicleChannels {
     for (const Strut& strut : struts)
       if (strut.position) result.push_back({strut.position->x(), strut.position->y()});
     if (result.size() < struts.size()) result.clear();
-    return result;
-  }
-  TopsOfBody topsOfBody() const {
-    TopsOfBody result(struts.size());
-    for (std::size_t i = 0; i < struts.size(); ++i)
-      if (!struts[i].sprung) result[i].emplace(std::array<double, 2>{struts[i].position->x(), struts[i].position->y()});
     return result;
   }
   /// @return how many struts' tops the body's IMU tells.

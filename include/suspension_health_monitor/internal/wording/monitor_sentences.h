@@ -9,7 +9,7 @@
 #include "suspension_health_monitor/identify.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
-#include "suspension_health_monitor/internal/health/health_rules.h"
+#include "suspension_health_monitor/internal/health/drive_change.h"
 #include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {
@@ -30,10 +30,6 @@ std::string describeSilent(const std::vector<std::string>& topics);
 /// others went on.  @param before  what was said until then.
 std::string describeNoReading(double seconds, const std::vector<std::string>& silent, const std::string& before);
 
-/// @return how a strut is, e.g. "damping 18 % below nominal (beyond doubt), stiffness at nominal".
-/// @param healthy  what the change is from.
-std::string describe(const StrutChange& change, const Baseline& healthy);
-
 /// @return one sentence, e.g. "rear_left damping 28 % below the other corners: damage".
 std::string describe(const CornerComparisonReport& report);
 
@@ -49,15 +45,19 @@ struct StrutOfDrive {
 std::optional<StrutOfDrive> strutOf(const IdentifyResult& found);
 
 /// @param options  whose payload_range counts.
-/// @return how a strut is against the healthy one, in a sentence; empty where no healthy one is known.
-std::string describeChange(const StrutOfDrive& strut, const Baseline& healthy, const MonitorOptions& options);
-
-/// @return the same of what was identified; empty also where no estimate is valid.
+/// @return how strutOf() is against the healthy one, in a sentence; empty where either is not known.
 std::string describeChange(const IdentifyResult& found, const Baseline& healthy, const MonitorOptions& options);
 
 /// @return the same of drives that were searched for effects.
 std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptions& searched, const Baseline& healthy,
                            const MonitorOptions& options);
+
+/// How a strut is against another drive: by how much, and where on the curves.
+/// @param other  name of that drive.
+/// @return e.g. "damping 23 % below march.bag (90 %: 20 to 26 %), softer in rebound above 0.3 m/s; stiffness within
+/// -0.8 to +1.2 %", or "no certain change against march.bag: damping within -4 to +3 %; stiffness within
+/// -0.8 to +1.2 %"; empty if neither b1 nor b0 can be compared.
+std::string describe(const DriveChange& change, const std::string& other);
 
 /// @param enough  to be known to, StrutEstimate::knownTo() [-].
 /// @return why an estimate is not valid; where more motion is needed also what is known, and how much longer to drive.

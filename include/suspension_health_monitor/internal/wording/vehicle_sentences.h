@@ -5,6 +5,7 @@
 
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/gravity.h"
+#include "suspension_health_monitor/internal/vehicle/imu_survey.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/vehicle.h"
 
@@ -25,6 +26,10 @@ std::string describe(const BodyLevel& level);
 /// @param name  of the IMU.  @param setting  that names its axis.
 /// @return how gravity contradicts the settings, and the mend; empty: it does not.
 std::string describe(const MountClaim::Finding& mount, const std::string& name, const char* setting);
+
+/// @param axis  of the IMU that points up or down.  @param moved  rms along it, of the body's and the wheel's motion.
+/// @return what is wrong with the readings of an IMU, the worst first, and what to do, in a sentence; empty: nothing.
+std::string describeFault(const ImuSurvey& imu, int axis, double moved);
 
 /// To be added to a reason.
 inline constexpr const char* kWheelsFolded =
