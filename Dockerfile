@@ -7,7 +7,7 @@ WORKDIR /suspension_health_monitor
 COPY package.xml ./
 COPY rosdep rosdep
 COPY scripts scripts
-RUN scripts/install_dependencies && rm -rf /var/lib/apt/lists/*
+RUN scripts/install_dependencies --demo && rm -rf /var/lib/apt/lists/*
 COPY . .
 RUN bash -c "source scripts/common.sh && buildPackage"
 CMD ["scripts/demo", "--quick", "--no-install", "--output", "/demo_out"]

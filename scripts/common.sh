@@ -51,7 +51,7 @@ sourceSystemRos() {
 
 jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}  # how many compilers at once
 
-# buildPackage [TARGET]...: configures and builds in build/.
+# buildPackage [TARGET]...: configures and builds in build/. "all" is what a user runs: nothing that only tests need.
 buildPackage() {
   local cache=$build/CMakeCache.txt
   sourceSystemRos
@@ -61,7 +61,8 @@ buildPackage() {
   fi
   mkdir -p "$build"
   say "building in $build with $jobs jobs"
-  local options=(-DWARNINGS_AS_ERRORS=ON)
+  local options=(-DWARNINGS_AS_ERRORS=ON -DCATKIN_ENABLE_TESTING=ON)
+  if [ "${*:-all}" = all ]; then options+=(-DCATKIN_ENABLE_TESTING=OFF); fi
   [ -z "${SANITIZE:-}" ] || options+=(-DSANITIZE="$SANITIZE" -DBUILD_BENCHMARKS=OFF)
   cmake -S "$repository" -B "$build" "${options[@]}" > "$build/configure.log" 2>&1 ||
     { cat "$build/configure.log"; fail "cmake failed"; }
