@@ -53,6 +53,8 @@ void MessagePipeline::push(std::size_t strut, const sensor_msgs::Temperature& me
 }
 
 void MessagePipeline::keep(const VehicleSample& sample) {
+  for (std::size_t i = 0; i < numStruts(); ++i)
+    if (!isUsable(sample.sprung[i]) || !isUsable(sample.unsprung[i])) return;
   if (recent_.empty()) {
     const double kept = std::ceil(kept_span_ / *period()) + 1.0;
     const auto capacity = static_cast<std::size_t>(std::min(kept, kMostKept));
@@ -62,7 +64,6 @@ void MessagePipeline::keep(const VehicleSample& sample) {
   }
   for (std::size_t i = 0; i < recent_.size(); ++i) {
     StrutSample strut{sample.ofStrut(i), {}};
-    if (!isUsable(strut.sprung_acceleration) || !isUsable(strut.unsprung_acceleration)) return;
     if (sample.unfiltered.size() > 0) strut.unfiltered = sample.unfiltered[i];
     if (recent_body_ && !recent_[i].isNewer(strut)) recent_body_->clear();  // the clock went back
     recent_[i].push(strut);
@@ -102,8 +103,7 @@ std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::str
   for (std::size_t i = 0; i < std::min(mounts_.size(), names.size()); ++i) {
     using Place = VehicleStreams::Place;
     const Place place = streams_.sensors[i].place;
-    if (place == Place::kForce) continue;
-    std::optional<MountClaim::Finding> found = mount(i);
+    std::optional<MountClaim::Finding> found = place == Place::kForce ? std::nullopt : mount(i);
     if (!found) continue;
     // The body's IMU is turned upright.
     if (is_inclined[i] || place == Place::kBody) found->lean = 0.0;

@@ -78,7 +78,7 @@ TEST(BlocksOfAStrut, GiveTheStrutTheDelayAndTheTimeOfTheNewestBlock) {
 }
 
 TEST(BlocksOfAStrut, KnowTheStrutWhateverTheGainOfASensor) {
-  for (const double gain : {0.8, 1.1, 1.25})
+  for (const double gain : {0.8, 1.1, 1.25, 1.0 / kStandardGravity, kStandardGravity})
     for (const bool of_wheel : {false, true}) {
       NoisyDrive drive;
       auto sampled = drive.sample();

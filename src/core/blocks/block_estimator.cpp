@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 
@@ -141,17 +142,32 @@ bool BlockEstimator::start() {
   return false;
 }
 
-// Linear least squares, which noise of the regressors biases, then some steps from there.
+// Linear least squares, which noise of the regressors biases, then some steps from there. Where that does not explain
+// nearly all, a sensor may read in another unit: a gain far from one is found only with the gain open from the start.
 bool BlockEstimator::startBy(int window) {
-  const BlockVector linear = equations_.start(newest(window));
+  const bool is_found = startAt(equations_.start(newest(window)), window);
+  if (equations_.columns().neighbours > 0 || (is_found && trial_.explained > kBlockTuning.nearly_all)) return is_found;
+  const BlockVector found = theta_, open = equations_.start(newest(window), true);
+  const double mean = std::exchange(first_.mean[kBlockGain], open[kBlockGain]);
+  const double stddev = std::exchange(first_.stddev[kBlockGain], HUGE_VAL);
+  const bool has_other_gain = open[kBlockGain] > -1.0 && startAt(open, window) &&
+                              trial_.explained > kBlockTuning.nearly_all && trial_.gainsDiffer();
+  if (!has_other_gain) theta_ = found;
+  first_.mean[kBlockGain] = has_other_gain ? theta_[kBlockGain] : mean;
+  first_.stddev[kBlockGain] = stddev;
+  return has_other_gain || is_found;
+}
+
+bool BlockEstimator::startAt(const BlockVector& linear, int window) {
   // A strut that bounces a quarter as fast as the lowest bin, damped by a tenth, is the softest that the blocks can
   // see.
   const double slowest = equations_.band().omega(BlockBand::kFirst) / 8.0;
   theta_ = first_.mean;
-  theta_[kBlockDamping] = std::max(linear[0], 0.2 * slowest);
-  theta_[kBlockStiffness] = std::max(linear[1], slowest * slowest);
-  theta_.tail(linear.size() - 2) = linear.tail(linear.size() - 2);
-  const int steps = equations_.columns().neighbours > 0 ? kBlockTuning.vehicle_start_steps : kBlockTuning.start_steps;
+  theta_[kBlockDamping] = std::max(linear[kBlockDamping], 0.2 * slowest);
+  theta_[kBlockStiffness] = std::max(linear[kBlockStiffness], slowest * slowest);
+  const int neighbours = equations_.columns().neighbours;
+  theta_.tail(neighbours) = linear.tail(neighbours);
+  const int steps = neighbours > 0 ? kBlockTuning.vehicle_start_steps : kBlockTuning.start_steps;
   for (int i = 0; i < steps; ++i) {
     for (int age = 0; age < window; ++age) equations_.linearise(theta_, block(age));
     if (!fit(window, first_, trial_)) return false;
@@ -178,6 +194,7 @@ void BlockEstimator::restart() {
   retireAll();
   weights_.median = BandVector();
   scatter_ = 1.0;
+  first_.mean[kBlockGain] = 0.0;
   slow_ = scaled_ = first_;
   has_theta_ = false;
   updates_ = 0;

@@ -27,11 +27,9 @@ void BlockEstimator::lookAtSensors() {
   if (!is_alone) first_.stddev[kBlockDelay] = kBlockTuning.delay_stddev;
   first_.stddev[kBlockGain] = kBlockTuning.gain_stddev;
   const bool is_known = fit(count_, first_, trial_);
-  const double gain = trial_.theta[kBlockGain];
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
     first_.stddev[kBlockDelay] = kBlockTuning.held;
-  if (!is_known || trial_.explained < kBlockTuning.nearly_all ||
-      std::abs(gain) < kLeastDifference + kCertain * std::sqrt(trial_.covariance(kBlockGain, kBlockGain)))
+  if (!is_known || trial_.explained < kBlockTuning.nearly_all || !trial_.gainsDiffer())
     first_.stddev[kBlockGain] = kBlockTuning.held;
 }
 

@@ -135,24 +135,32 @@ void StrutEquations::sumBands(StrutBlock& block) const {
   }
 }
 
-BlockVector StrutEquations::start(const std::vector<const StrutBlock*>& blocks) {
-  const Eigen::Index p = 2 + columns_.neighbours;
+BlockVector StrutEquations::start(const std::vector<const StrutBlock*>& blocks, bool with_gain) {
+  // Where the gain is open the wheel has a coefficient of its own beside travel: (1 + gamma) b0 = b0 + that.
+  const Eigen::Index neighbours = columns_.neighbours, gain = 2 + neighbours, p = gain + (with_gain ? 2 : 0);
   BlockMatrix normal = BlockMatrix::Zero(p, p);
   BlockVector right = BlockVector::Zero(p);
   for (const StrutBlock* block : blocks) {
     for (int i = 0; i < 2; ++i) undelayed_.apply(i, block->wheel, x_.col(i));
+    regressors_.leftCols(2) << x_.col(1) - block->body.col(1), x_.col(0) - block->body.col(0);
+    regressors_.middleCols(2, neighbours) = block->neighbours;
+    if (with_gain) regressors_.middleCols(gain, 2) << x_.col(1), x_.col(0);
+    regressors_.col(p) = block->body.col(2);
     // Over s^2: displacements, which a bounce has most of.
-    regressors_.col(0).array() = (x_.col(1) - block->body.col(1)) / (s_ * s_);
-    regressors_.col(1).array() = (x_.col(0) - block->body.col(0)) / (s_ * s_);
-    for (int m = 0; m < columns_.neighbours; ++m) regressors_.col(2 + m).array() = block->neighbours.col(m) / (s_ * s_);
-    regressors_.col(p).array() = block->body.col(2) / (s_ * s_);
+    regressors_.leftCols(p + 1).array().colwise() /= s_ * s_;
     const auto rows = asReal(regressors_);
     normal.noalias() += rows.leftCols(p).transpose().lazyProduct(rows.leftCols(p));
     right.noalias() += rows.leftCols(p).transpose().lazyProduct(rows.col(p));
   }
   const BlockVector scale = normal.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   const BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
-  return scale.cwiseProduct(Eigen::PartialPivLU<BlockMatrix>(scaled).solve(scale.cwiseProduct(right)));
+  const BlockVector solution =
+      scale.cwiseProduct(Eigen::PartialPivLU<BlockMatrix>(scaled).solve(scale.cwiseProduct(right)));
+  BlockVector theta = BlockVector::Zero(columns_.numParameters());
+  theta.head<2>() = solution.head<2>();
+  theta.tail(neighbours) = solution.segment(2, neighbours);
+  if (with_gain) theta[kBlockGain] = solution[gain + 1] / solution[kBlockStiffness];
+  return theta;
 }
 
 }  // namespace suspension_health_monitor

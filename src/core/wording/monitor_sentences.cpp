@@ -64,8 +64,9 @@ std::string describe(const SensorReport& report) {
              "sensor fault, wrong axis, wrong topic, or the two swapped";
     case SensorFault::kGainsDiffer:
       return formatted(
-          "the sprung IMU reads %.2f times what the unsprung one reads of the same slow motion: gain or tilt of one of "
-          "them; damping and stiffness take it into account",
+          "the sprung IMU reads %.3g times what the unsprung one reads of the same slow motion: unit, gain or tilt of "
+          "one "
+          "of them; damping and stiffness take it into account",
           1.0 + report.gain);
   }
   return {};

@@ -129,6 +129,7 @@ class BlockEstimator {
   double delayStddev() const;
   bool start();
   bool startBy(int window);
+  bool startAt(const BlockVector& linear, int window);
   void learnSlow();
   void lookAtSensors();
   bool contradictsSlow();

@@ -86,8 +86,9 @@ class StrutEquations {
   /// Computes the sums of a block's bands at theta. Cost: O(bins * parameters^2), no allocation.
   void linearise(const BlockVector& theta, StrutBlock& block);
 
-  /// @return b1, b0 and the neighbours' columns of weighted least squares over blocks, as a start.
-  BlockVector start(const std::vector<const StrutBlock*>& blocks);
+  /// @return a start: b1, b0, the neighbours' columns and, if it is asked for, gamma of weighted least squares over
+  /// blocks; all else 0.
+  BlockVector start(const std::vector<const StrutBlock*>& blocks, bool with_gain = false);
 
   const BlockBand& band() const { return band_; }
   const NoiseBands& noiseBands() const { return noise_bands_; }

@@ -9,6 +9,7 @@
 
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
@@ -64,6 +65,10 @@ struct WindowEstimate {
     return {theta[i], std::sqrt(covariance(i, i)), gain, covariance(0, i), gain * rate / travel};
   }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
+  /// @return true if the two sensors' gains differ by more than links and laws with memory make of them.
+  bool gainsDiffer() const {
+    return std::abs(theta[kBlockGain]) >= kLeastDifference + kCertain * std::sqrt(covariance(kBlockGain, kBlockGain));
+  }
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };
 
