@@ -21,6 +21,19 @@ bool explainsSomething(const WindowEstimate& estimate, const BlockBand& band) {
          (1.0 - estimate.explained) * estimate.amplified < kMajority;
 }
 
+// @param power  that a fit leaves of these blocks, per bin, by band and block.
+// @return true if the fit explains most of what the body did in most bands.
+bool explainsMostBands(const Eigen::Ref<const Eigen::ArrayXXd>& power, const std::vector<const StrutBlock*>& blocks,
+                       const NoiseBands& bands) {
+  int explained = 0;
+  for (int i = 0; i < bands.count(); ++i) {
+    double body = 0.0;
+    for (const StrutBlock* block : blocks) body += block->bands[i].powers[StrutBlock::Band::kBody];
+    if (power.row(i).sum() * bands.size(i) < kMajority * body) ++explained;
+  }
+  return explained > kMajority * bands.count();
+}
+
 }  // namespace
 
 BlockEstimator::BlockEstimator(const BlockBand& band, const BlockColumns& columns)
@@ -144,6 +157,7 @@ bool BlockEstimator::start() {
 
 // Linear least squares, which noise of the regressors biases, then some steps from there. Where that does not explain
 // nearly all, a sensor may read in another unit: a gain far from one is found only with the gain open from the start.
+// Of motion at one frequency any gain explains all; so most of the bands have to tell.
 bool BlockEstimator::startBy(int window) {
   const bool is_found = startAt(equations_.start(newest(window)), window);
   if (equations_.columns().neighbours > 0 || (is_found && trial_.explained > kBlockTuning.nearly_all)) return is_found;
@@ -151,7 +165,8 @@ bool BlockEstimator::startBy(int window) {
   const double mean = std::exchange(first_.mean[kBlockGain], open[kBlockGain]);
   const double stddev = std::exchange(first_.stddev[kBlockGain], HUGE_VAL);
   const bool has_other_gain = open[kBlockGain] > -1.0 && startAt(open, window) &&
-                              trial_.explained > kBlockTuning.nearly_all && trial_.gainsDiffer();
+                              trial_.explained > kBlockTuning.nearly_all && trial_.gainsDiffer() &&
+                              explainsMostBands(window_fit_.power(), pointers_, equations_.noiseBands());
   if (!has_other_gain) theta_ = found;
   first_.mean[kBlockGain] = has_other_gain ? theta_[kBlockGain] : mean;
   first_.stddev[kBlockGain] = stddev;
