@@ -165,10 +165,10 @@ bool BlockEstimator::startBy(int window) {
   const double mean = std::exchange(first_.mean[kBlockGain], open[kBlockGain]);
   const double stddev = std::exchange(first_.stddev[kBlockGain], HUGE_VAL);
   const bool has_other_gain = open[kBlockGain] > -1.0 && startAt(open, window) &&
-                              trial_.explained > kBlockTuning.nearly_all && trial_.gainsDiffer() &&
+                              trial_.explained > kBlockTuning.nearly_all &&
                               explainsMostBands(window_fit_.power(), pointers_, equations_.noiseBands());
   if (!has_other_gain) theta_ = found;
-  first_.mean[kBlockGain] = has_other_gain ? theta_[kBlockGain] : mean;
+  first_.mean[kBlockGain] = !has_other_gain ? mean : trial_.gainsDiffer() ? theta_[kBlockGain] : 0.0;
   first_.stddev[kBlockGain] = stddev;
   return has_other_gain || is_found;
 }
