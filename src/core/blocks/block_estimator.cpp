@@ -155,21 +155,24 @@ bool BlockEstimator::start() {
   return false;
 }
 
-// Linear least squares, which noise of the regressors biases, then some steps from there. Where that does not explain
-// nearly all, a sensor may read in another unit: a gain far from one is found only with the gain open from the start.
-// Of motion at one frequency any gain explains all; so most of the bands have to tell.
+// Linear least squares, which noise of the regressors biases, then some steps from there; of a strut alone also with
+// the gain open, as a sensor may read in another unit. Of motion at one frequency any gain explains all; so most of the
+// bands have to tell.
 bool BlockEstimator::startBy(int window) {
   const bool is_found = startAt(equations_.start(newest(window)), window);
-  if (equations_.columns().neighbours > 0 || (is_found && trial_.explained > kBlockTuning.nearly_all)) return is_found;
+  if (equations_.columns().neighbours > 0) return is_found;
   const BlockVector found = theta_, open = equations_.start(newest(window), true);
   const double mean = std::exchange(first_.mean[kBlockGain], open[kBlockGain]);
   const double stddev = std::exchange(first_.stddev[kBlockGain], HUGE_VAL);
   const bool has_other_gain = open[kBlockGain] > -1.0 && startAt(open, window) &&
                               trial_.explained > kBlockTuning.nearly_all &&
                               explainsMostBands(window_fit_.power(), pointers_, equations_.noiseBands());
+  const bool differ = has_other_gain && trial_.gainsDiffer();
   if (!has_other_gain) theta_ = found;
-  first_.mean[kBlockGain] = !has_other_gain ? mean : trial_.gainsDiffer() ? theta_[kBlockGain] : 0.0;
-  first_.stddev[kBlockGain] = stddev;
+  first_.mean[kBlockGain] = differ ? theta_[kBlockGain] : has_other_gain ? 0.0 : mean;
+  first_.stddev[kBlockGain] = differ ? kBlockTuning.gain_stddev : stddev;
+  slow_.mean[kBlockGain] = first_.mean[kBlockGain];
+  slow_.stddev[kBlockGain] = first_.stddev[kBlockGain];
   return has_other_gain || is_found;
 }
 
