@@ -148,7 +148,10 @@ bool BlockEstimator::start() {
     for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
     return true;
   }
-  if (is_alone) return false;
+  if (is_alone) {
+    first_.mean[kBlockGain] = slow_.mean[kBlockGain] = 0.0;  // perhaps another sensor
+    return false;
+  }
   waits_ = kBlockTuning.slow_every - 1;
   double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
   stddev = stddev == kBlockTuning.held ? delayStddev() : kBlockTuning.held;
@@ -157,10 +160,10 @@ bool BlockEstimator::start() {
 
 // Linear least squares, which noise of the regressors biases, then some steps from there; of a strut alone also with
 // the gain open, as a sensor may read in another unit. Of motion at one frequency any gain explains all; so most of the
-// bands have to tell.
+// bands have to tell. Where a strut was known the gain is, too: blocks of two loads would look like another one.
 bool BlockEstimator::startBy(int window) {
   const bool is_found = startAt(equations_.start(newest(window)), window);
-  if (equations_.columns().neighbours > 0) return is_found;
+  if (equations_.columns().neighbours > 0 || weights_.median.size() > 0) return is_found;
   const BlockVector found = theta_, open = equations_.start(newest(window), true);
   const double mean = std::exchange(first_.mean[kBlockGain], open[kBlockGain]);
   const double stddev = std::exchange(first_.stddev[kBlockGain], HUGE_VAL);

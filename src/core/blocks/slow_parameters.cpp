@@ -30,7 +30,7 @@ void BlockEstimator::lookAtSensors() {
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
     first_.stddev[kBlockDelay] = kBlockTuning.held;
   const bool tells_gain = is_known && trial_.explained >= kBlockTuning.nearly_all, differ = trial_.gainsDiffer();
-  if (tells_gain) first_.mean[kBlockGain] = differ ? trial_.theta[kBlockGain] : 0.0;
+  if (tells_gain && !differ) first_.mean[kBlockGain] = 0.0;
   if (!tells_gain || !differ) first_.stddev[kBlockGain] = kBlockTuning.held;
 }
 
