@@ -75,6 +75,7 @@ StrutBlock& BlockEstimator::next() {
 void BlockEstimator::begin(const BlockVector& theta, const BlockPrior& slow) {
   theta_ = theta;
   slow_ = slow;
+  first_.mean[kBlockGain] = slow.mean[kBlockGain];
   has_theta_ = true;
 }
 
@@ -148,10 +149,7 @@ bool BlockEstimator::start() {
     for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
     return true;
   }
-  if (is_alone) {
-    first_.mean[kBlockGain] = slow_.mean[kBlockGain] = 0.0;  // perhaps another sensor
-    return false;
-  }
+  if (is_alone) return false;
   waits_ = kBlockTuning.slow_every - 1;
   double& stddev = first_.stddev[kBlockDelay];  // perhaps that is what was missing, or too much
   stddev = stddev == kBlockTuning.held ? delayStddev() : kBlockTuning.held;
