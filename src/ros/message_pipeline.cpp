@@ -103,7 +103,8 @@ std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::str
   for (std::size_t i = 0; i < std::min(mounts_.size(), names.size()); ++i) {
     using Place = VehicleStreams::Place;
     const Place place = streams_.sensors[i].place;
-    std::optional<MountClaim::Finding> found = place == Place::kForce ? std::nullopt : mount(i);
+    if (place == Place::kForce) continue;
+    std::optional<MountClaim::Finding> found = mount(i);
     if (!found) continue;
     // The body's IMU is turned upright.
     if (is_inclined[i] || place == Place::kBody) found->lean = 0.0;

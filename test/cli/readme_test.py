@@ -67,8 +67,8 @@ def driving(terminal, robot):
 
 
 def record(terminal, command):
-    """Until nothing is missing for half a second: a recorder that waits for a busy machine loses messages, as the README's
-    reader's would not, whose clock is not faster."""
+    """Records until nothing is missing for half a second. These robots' clock is faster than real time, so a recorder that
+    waits for a busy machine loses messages."""
     path = terminal.folder / re.search(r"-O (\S+)", command)[1]
 
     def is_whole():

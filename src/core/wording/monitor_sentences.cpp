@@ -65,8 +65,7 @@ std::string describe(const SensorReport& report) {
     case SensorFault::kGainsDiffer:
       return formatted(
           "the sprung IMU reads %.3g times what the unsprung one reads of the same slow motion: unit, gain or tilt of "
-          "one "
-          "of them; damping and stiffness take it into account",
+          "one of them; damping and stiffness take it into account",
           1.0 + report.gain);
   }
   return {};
