@@ -8,7 +8,7 @@
 
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
-#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 

@@ -6,8 +6,8 @@
 // on. Bias: the median error of the valid estimates of a drive. Estimates are looked at once per second, not in the
 // first 20 s, nor in those after the load has changed. WARN, ERROR: how often either was raised.
 // steps: damper or spring weaker from 120 s on; ramps: damping -33 % between 40 and 100 s, -15 % at 67, -30 % at 94 s.
-// time: the first seconds of a healthy drive predict how many more make the estimate half as uncertain, or three
-// quarters. friction: a baseline that is learned in 120 s on one road, then the same strut, or a worn one, on another
+// time: the first seconds of a healthy drive predict how many more of driving make the estimate half as uncertain.
+// friction: a baseline that is learned in 120 s on one road, then the same strut, or a worn one, on another
 // for 300 s.
 #include <algorithm>
 #include <array>
@@ -234,27 +234,28 @@ void printFriction(unsigned seed) {
   });
 }
 
-/// More seconds until the estimate is half as uncertain.
+/// More seconds of driving until the estimate is half as uncertain.
 struct Wait {
   double predicted = 0.0, passed = kNever;
 };
 
 Wait measureTime(const FamilyDrive& drive) {
-  constexpr double kEvery = 5.0, kFirstLook = 30.0, kTarget = 0.5;  // [s]; of what it is known to then
-  double wanted = 0.0, asked_at = 0.0, look_at = kFirstLook;
+  constexpr double kEvery = 2.5, kFirstLook = 30.0, kTarget = 0.5;  // [s]; of what it is known to then
+  double wanted = 0.0, asked_at = 0.0, look_at = kFirstLook, driven = 0.0;
   Wait wait;
   VehiclePipeline pipeline = pipelineFor(drive.field);
   follow({drive.field, drive.delivery}, drive.seconds, pipeline, [&](double time, const MonitorReport&) {
     if (time < look_at || std::isfinite(wait.passed)) return;
     look_at += kEvery;
+    driven += drive.field.stops && std::fmod(time, 60.0) > 40.0 ? 0.0 : kEvery;
     const StrutEstimate estimate = pipeline.overTheDrive();
     const double known_to = estimate.knownTo();
     if (!(known_to > 0.0)) return;
     if (asked_at == 0.0) {
-      asked_at = time, wanted = kTarget * known_to;
+      asked_at = driven, wanted = kTarget * known_to;
       wait.predicted = estimate.secondsUntil(wanted);
     } else if (known_to <= wanted) {
-      wait.passed = time - 0.5 * kEvery - asked_at;
+      wait.passed = driven - 0.5 * kEvery - asked_at;
     }
   });
   return wait;

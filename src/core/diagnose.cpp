@@ -13,7 +13,7 @@
 #include "suspension_health_monitor/internal/model/free_run.h"
 #include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
-#include "suspension_health_monitor/internal/record/motion_range.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 

@@ -9,7 +9,7 @@
 #include "shell_options.h"
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
-#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 
 namespace suspension_health_monitor {
 

@@ -7,7 +7,7 @@
 
 #include "input_task.h"
 #include "suspension_health_monitor/internal/base/text.h"
-#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {

@@ -10,7 +10,7 @@
 #include "command.h"
 #include "imu_bags.h"
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/record/motion_range.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 
 namespace suspension_health_monitor {
 

@@ -9,7 +9,7 @@
 #include "command.h"
 #include "recorded_drives.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
-#include "suspension_health_monitor/internal/record/motion_range.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
 #include "suspension_health_monitor/internal/vehicle/rough_strut.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"

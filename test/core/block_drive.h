@@ -86,6 +86,7 @@ struct SampledStrut {
 struct NoisyDrive {
   double b1 = 4.2, b0 = 52.0, rate = 64.0, seconds = 32.0;
   double wheel_rms = 3.0, body_noise = 0.03, wheel_noise = 0.03, delay = 0.0;
+  double memory_spring = 0.0, relaxation = 1.0;  ///< a Maxwell element beside the strut, over mass [1/s^2], [s]
   unsigned seed = 1;
 
   SampledStrut sample() const {
@@ -99,7 +100,8 @@ struct NoisyDrive {
       const Complex s(0.0, 2.0 * M_PI * k * rate / n), w(size * normal(random), size * normal(random));
       const auto place = static_cast<std::size_t>(k), mirror = wheel.size() - place;
       wheel[place] = w * std::exp(-s * delay);
-      body[place] = w * (b1 * s + b0) / (s * s + b1 * s + b0);
+      const Complex force = b1 * s + b0 + memory_spring * relaxation * s / (relaxation * s + 1.0);
+      body[place] = w * force / (s * s + force);
       wheel[mirror] = std::conj(wheel[place]);
       body[mirror] = std::conj(body[place]);
     }

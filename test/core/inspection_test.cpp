@@ -100,7 +100,8 @@ TEST(Inspection, LeftAndRightMayBeExchanged) {
 }
 
 TEST(Inspection, EqualStrutsHaveNoImbalance) {
-  const InspectedNumber& number = find(inspect(axle(3.0, 3.0)), InspectedQuantity::kDampingImbalance);
+  const Inspection found = inspect(axle(3.0, 3.0));
+  const InspectedNumber& number = find(found, InspectedQuantity::kDampingImbalance);
   EXPECT_DOUBLE_EQ(number.value, 0.0);
   EXPECT_DOUBLE_EQ(number.interval.low, 0.0);
   EXPECT_NEAR(number.interval.high, 1.96 * 0.01 * std::sqrt(2.0), 1e-5);

@@ -9,7 +9,7 @@
 
 #include "hidden_effect.h"
 #include "recorded_drive.h"
-#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 #include "suspension_health_monitor/internal/simulation/random_stream.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"

@@ -1,4 +1,4 @@
-#include "suspension_health_monitor/internal/record/motion_range.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include "simulated_drive.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
-#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 
 namespace suspension_health_monitor {
 namespace {

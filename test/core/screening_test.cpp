@@ -10,7 +10,7 @@
 #include "recorded_drive.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
-#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -92,6 +92,19 @@ TEST(BlocksOfAStrut, KnowTheStrutWhateverTheGainOfASensor) {
     }
 }
 
+TEST(BlocksOfAStrut, SeeNoGainInASpringThatDependsOnFrequency) {
+  for (const double stiffening : {0.1, 0.2, 0.5})
+    for (const double relaxation : {0.02, 0.05, 0.1, 0.2, 0.5}) {
+      NoisyDrive drive;
+      drive.memory_spring = stiffening * drive.b0;
+      drive.relaxation = relaxation;
+      drive.seconds = 64.0;
+      VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), 1.0 / drive.rate);
+      for (const TopEstimate& each : feed(blocks, readingsOf(drive.sample())))
+        ASSERT_NEAR(each.theta[kBlockGain], 0.0, 1e-6) << stiffening << " " << relaxation;
+    }
+}
+
 // d' = s w'' / A, white from the lowest bin on; what is below is little.
 TEST(BlocksOfAStrut, GiveTheTravelRateOfTheStrut) {
   NoisyDrive drive;

@@ -44,6 +44,8 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   result.blocks = blocks_;
   result.theta = start;
   solved_ = start.head<2>();
+  // With equal weights one blow that outweighs all else would draw the fit to itself.
+  if (weigh(blocks, start)) gathered_ = 0;
   gather(blocks);
   for (int w = 0; w < kBlockTuning.weightings; ++w) {
     for (int i = 0; i < kBlockTuning.weightings; ++i) {
@@ -72,10 +74,7 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   const auto newest = [&](int i) -> const StrutBlock& { return *blocks[blocks_ - 1 - i]; };
   bool is_known = gathered_ <= blocks_;
   for (int i = 0; is_known && i < gathered_; ++i) is_known = versions_[i] == newest(i).version;
-  if (!is_known) {
-    gathered_ = 0;
-    weight_.setOnes();
-  }
+  if (!is_known) gathered_ = 0;
   if (gathered_ == 0) {
     sum_of_weights_ = 0.0;
     for (StrutBlock::Band& each : sums_) each.setZero();
@@ -146,6 +145,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   result.is_settled =
       ((solved_ - result.theta.head<2>()).array().square() <= result.covariance.diagonal().head<2>().array()).all();
   result.noise = weights_.noise;
+  result.gain_spread = 0.0;
   result.alike = 0.0;
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
@@ -154,9 +154,14 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   double unexplained = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 4> of_quarter = Eigen::Matrix<double, 2, 4>::Zero();
-  for (const Band& each : sums_) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const Band& each = sums_[i];
     unexplained += residualPower(each.moments, result.theta);
     powers += each.powers;
+    const double own = each.information(kBlockGain, kBlockGain);
+    const double off = scoreOf(each, result.theta, weights_.share_scale[i])[kBlockGain] / own;
+    const double by_noise = std::sqrt(kBinCorrelation * weights_.noise[i] / own);
+    result.gain_spread = std::max(result.gain_spread, std::abs(off) - kLikely * by_noise);
   }
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[b];
@@ -241,8 +246,10 @@ double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blo
     distances_.push_back(apart.dot(covariance.inverse() * apart));
   }
   if (distances_.size() < 5) return 1.0;
-  // Of chi square of two degrees of freedom the median is 2 ln 2.
-  return std::max(1.0, medianInPlace(distances_) / (2.0 * std::log(2.0)));
+  // Of chi square of two degrees of freedom the median is 2 ln 2, and that of n values varies by 1 / (ln 2 sqrt(n)) of
+  // itself; neighbours share a block, so that n counts as n / 1.5. Only what is more than that is no chance.
+  const double chance = std::sqrt(1.5 / static_cast<double>(distances_.size())) / std::log(2.0);
+  return std::max(1.0, medianInPlace(distances_) / (2.0 * std::log(2.0) * (1.0 + chance)));
 }
 
 }  // namespace suspension_health_monitor

@@ -99,6 +99,7 @@ std::string describeDoubt(EstimateDoubt doubt, const std::string& known) {
 std::string intervalOf(double change, double stddev) {
   const double half = normalQuantile(0.025) * stddev;
   if (!std::isfinite(half)) return {};
+  if (half > std::log(10.0)) return "its size is not known";
   const auto percent = [&](double log_change) {
     return std::lround(std::copysign(100.0, change) * std::expm1(log_change));
   };

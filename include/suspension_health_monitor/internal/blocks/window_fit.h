@@ -43,6 +43,7 @@ struct WindowEstimate {
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   std::optional<ChangedStretch> change;  ///< of a whole drive
   BandVector noise;                      ///< power of e per bin of each band: the unexplained spectrum
+  double gain_spread = 0.0;              ///< by which gamma of one band alone differs, beyond its noise
 
   /// @param i  b1 or b0. A damping below kBlockTuning.least_damping is known as well as that one is: a strut without a
   /// damper is one, too.
@@ -65,9 +66,11 @@ struct WindowEstimate {
     return {theta[i], std::sqrt(covariance(i, i)), gain, covariance(0, i), gain * rate / travel};
   }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
-  /// @return true if the two sensors' gains differ by more than links and laws with memory make of them.
+  /// @return true if the two sensors' gains differ by more than links and laws with memory make of them. A gain is the
+  /// same at all frequencies. What a spring with memory makes of it differs between bands by half of itself and more.
   bool gainsDiffer() const {
-    return std::abs(theta[kBlockGain]) >= kLeastDifference + kCertain * std::sqrt(covariance(kBlockGain, kBlockGain));
+    const double stddev = std::sqrt(covariance(kBlockGain, kBlockGain));
+    return std::abs(theta[kBlockGain]) >= kLeastDifference + kCertain * stddev + gain_spread / kMajority;
   }
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/record/drive_record.h"
-#include "suspension_health_monitor/internal/record/motion_scale.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 
 namespace suspension_health_monitor {
 

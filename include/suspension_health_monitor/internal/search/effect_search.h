@@ -1,7 +1,7 @@
 #pragma once
 
 #include "suspension_health_monitor/diagnose.h"
-#include "suspension_health_monitor/internal/record/motion_range.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 
 namespace suspension_health_monitor {
 
