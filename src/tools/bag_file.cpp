@@ -27,7 +27,7 @@ BagFile::BagFile(const std::string& path) : path_(path) {
     throw InputError(path + ": cannot be read");
   }
   if (size_ < sizeof(kMagic) || file_.getline() != std::string(kMagic) + '\n')
-    throw InputError(path + ": is not a bag of format 2.0 (rosbag check tells, rosbag migrate mends older ones)");
+    throw InputError(path + ": is not a bag of format 2.0 (rosbag check tells, rosbag fix mends older ones)");
   readBlock("bag header", header_);
   const BagRecord record{header_.view(), {}};
   if (!text(findField(record.header, rosbag::ENCRYPTOR_FIELD_NAME)).empty())

@@ -1,6 +1,7 @@
 """Bags with messages of former versions are migrated by rosbag's own tool."""
 import math
 import re
+import sys
 from pathlib import Path
 
 import genpy.dynamic
@@ -40,6 +41,8 @@ def test_the_rule_ends_in_the_message_as_it_is(message):
     assert now._md5sum == message._md5sum
 
 
+@pytest.mark.skipif(sys.version_info >= (3, 13), reason="rosbag migrates nothing there: it looks for what exec() made in "
+                                                        "locals(), which Python 3.13 no longer gives")
 @pytest.mark.parametrize("message, fields, unknown", [(ParameterEstimate, ESTIMATE, ["explained", "age"]),
                                                       (CouplingInUse, COUPLING, ["model_error"])])
 def test_a_former_bag_is_migrated_and_keeps_its_numbers(message, fields, unknown, tmp_path):

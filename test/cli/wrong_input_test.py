@@ -29,7 +29,7 @@ NOT_A_BAG = {
     "missing": (None, ["cannot be read", "No such file"]),
     "empty": (b"", ["is not a bag"]),
     "text": (b"time,acceleration\n0,1\n", ["is not a bag", "2.0"]),
-    "old format": (b"#ROSBAG V1.2\n" + bytes(100), ["is not a bag of format 2.0", "rosbag migrate"]),
+    "old format": (b"#ROSBAG V1.2\n" + bytes(100), ["is not a bag of format 2.0", "rosbag fix"]),
     "nothing behind the first line": (b"#ROSBAG V2.0\n", ["is cut off", "rosbag reindex"]),
     "zeros": (b"#ROSBAG V2.0\n" + bytes(10000), ["damaged"]),
     "huge length": (b"#ROSBAG V2.0\n" + b"\xff" * 10000, ["is cut off"]),

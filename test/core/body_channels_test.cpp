@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "../../src/core/record/slope_filter.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -85,8 +85,8 @@ const std::vector<const StrutBlock*>& BlockEstimator::newest(int count, int from
   return pointers_;
 }
 
-bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result) {
-  window_fit_.fit(newest(window), prior, theta_, weights_.median, scatter_, result);
+bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result, bool is_near) {
+  window_fit_.fit(newest(window), prior, theta_, weights_.median, scatter_, result, is_near);
   return result.isUsable();
 }
 
@@ -234,7 +234,7 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
   for (int i = 0; i < kMostSteps; ++i) {
     const BlockVector before = theta_;
     for (int age = 0; age < count_; ++age) equations_.linearise(theta_, block(age));
-    if (!fit(count_, first_, result)) return std::nullopt;
+    if (!fit(count_, first_, result, true)) return std::nullopt;
     theta_ = result.theta;
     if (((theta_ - before).array().abs() <= kStill * theta_.array().abs()).head<2>().all()) break;
   }

@@ -26,7 +26,7 @@ void BlockEstimator::lookAtSensors() {
   const double omega = equations_.band().omega(equations_.band().last);
   if (!is_alone) first_.stddev[kBlockDelay] = kBlockTuning.delay_stddev;
   first_.stddev[kBlockGain] = kBlockTuning.gain_stddev;
-  const bool is_known = fit(count_, first_, trial_);
+  const bool is_known = fit(count_, first_, trial_, true);
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
     first_.stddev[kBlockDelay] = kBlockTuning.held;
   const bool tells_gain = is_known && trial_.explained >= kBlockTuning.nearly_all, differ = trial_.gainsDiffer();
@@ -53,7 +53,7 @@ void BlockEstimator::scaleSlow() {
 
 void BlockEstimator::learnSlow() {
   lookAtSensors();
-  if (!fit(count_, first_, trial_)) return;
+  if (!fit(count_, first_, trial_, true)) return;
   slow_ = first_;
   for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
     if (!isSlow(i)) continue;

@@ -38,15 +38,20 @@ WindowFit::WindowFit(const BlockBand& band, const BlockColumns& columns, int mos
 }
 
 void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
-                    const BandVector& median, double least_inflation, WindowEstimate& result) {
+                    const BandVector& median, double least_inflation, WindowEstimate& result, bool is_near) {
   blocks_ = static_cast<int>(blocks.size());
   weights_.median = median;
   result.blocks = blocks_;
   result.theta = start;
   solved_ = start.head<2>();
-  // With equal weights one blow that outweighs all else would draw the fit to itself.
-  if (weigh(blocks, start)) gathered_ = 0;
+  const auto weighAgain = [&] {
+    if (!weigh(blocks, result.theta)) return false;
+    gathered_ = 0;
+    gather(blocks);
+    return true;
+  };
   gather(blocks);
+  if (is_near) weighAgain();
   for (int w = 0; w < kBlockTuning.weightings; ++w) {
     for (int i = 0; i < kBlockTuning.weightings; ++i) {
       measureNoise(result.theta);
@@ -61,9 +66,7 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
       result.theta[kBlockWheelShare] =
           std::clamp(result.theta[kBlockWheelShare], kBlockTuning.least_share, 1.0 - kBlockTuning.least_share);
     }
-    if (!weigh(blocks, result.theta)) break;
-    gathered_ = 0;
-    gather(blocks);
+    if (!weighAgain()) break;
   }
   measureNoise(result.theta);
   describe(blocks, prior, least_inflation, result);
@@ -74,7 +77,10 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
   const auto newest = [&](int i) -> const StrutBlock& { return *blocks[blocks_ - 1 - i]; };
   bool is_known = gathered_ <= blocks_;
   for (int i = 0; is_known && i < gathered_; ++i) is_known = versions_[i] == newest(i).version;
-  if (!is_known) gathered_ = 0;
+  if (!is_known) {
+    gathered_ = 0;
+    weight_.setOnes();
+  }
   if (gathered_ == 0) {
     sum_of_weights_ = 0.0;
     for (StrutBlock::Band& each : sums_) each.setZero();

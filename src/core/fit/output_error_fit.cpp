@@ -52,7 +52,9 @@ class OutputErrorProblem {
     for (std::size_t s = 0; s < segments.size(); ++s) {
       initial_[s] = {inUnits(states[s].travel, parameters.motion().travel),
                      inUnits(states[s].travel_rate, parameters.motion().travel_rate)};
-      problem_.AddResidualBlock(new SegmentCost(segments, s, maskOf(masks, s), parameters, outlier, memories_), nullptr,
+      const SampleMask* mask = maskOf(masks, s);
+      if (mask != nullptr && std::count(mask->begin(), mask->end(), 0) == std::ptrdiff_t(mask->size())) continue;
+      problem_.AddResidualBlock(new SegmentCost(segments, s, mask, parameters, outlier, memories_), nullptr,
                                 model_.data(), initial_[s].data());
     }
   }
@@ -63,7 +65,8 @@ class OutputErrorProblem {
     auto* ordering = new ceres::ParameterBlockOrdering;  // the solver's options own it
     ceres::Solver::Options solver;
     solver.linear_solver_ordering.reset(ordering);
-    for (auto& of_segment : initial_) ordering->AddElementToGroup(of_segment.data(), 0);
+    for (auto& of_segment : initial_)
+      if (problem_.HasParameterBlock(of_segment.data())) ordering->AddElementToGroup(of_segment.data(), 0);
     ordering->AddElementToGroup(model_.data(), 1);
     if (holds_model) problem_.SetParameterBlockConstant(model_.data());
     solver.linear_solver_type = ceres::DENSE_SCHUR;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "slope_filter.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
 
 namespace suspension_health_monitor {

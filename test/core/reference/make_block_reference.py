@@ -199,7 +199,7 @@ def window(blocks, bands, at, usual=None):
             right = right + weight * products(Z, (at @ R + e)[None, :])[:, 0]
         return N, right, spread
 
-    theta, w = at.copy(), weigh(at)
+    theta, w = at.copy(), np.ones(len(blocks))
     for _ in range(3):
         for _ in range(3):
             N, right, _ = normal(*noise(theta, w))

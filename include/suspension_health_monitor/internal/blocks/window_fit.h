@@ -150,8 +150,10 @@ class WindowFit {
   /// @param start  of the iteration over weights.
   /// @param median  of the blocks: power of e per bin of each band; empty: not known yet.
   /// @param least_inflation  that is known from other windows.
+  /// @param is_near  most blocks are of the strut at start: they are weighed there first, as one blow that outweighs
+  /// all else would draw a fit to itself that begins with equal weights. These find a strut that has changed sooner.
   void fit(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, const BlockVector& start,
-           const BandVector& median, double least_inflation, WindowEstimate& result);
+           const BandVector& median, double least_inflation, WindowEstimate& result, bool is_near = false);
 
   /// @param each  by band; empty: a strut alone.
   void setWheelNoise(const std::vector<WheelNoise>& each) { wheel_noise_ = each; }
