@@ -181,5 +181,19 @@ TEST(CornerComparison, WithoutBaselinesTheWheelsOfAnAxleAreCompared) {
   EXPECT_EQ(describe(report), "rear_right damping 30 % below rear_left (27 to 33 %, no baseline): damage");
 }
 
+TEST(CornerComparison, ABaselineOfADamagedVehicleHidesNoDamage) {
+  Corners corners = healthyCorners();
+  for (CornerState& corner : corners) corner.healthy.learned = true;
+  EXPECT_EQ(describe(compareCorners(corners)), "all corners alike");
+  *corners[kRearRight].healthy.damping_to_mass *= 0.7;
+  corners[kRearRight].estimate.damping_to_mass *= 0.7;
+  const CornerComparisonReport report = compareCorners(corners);
+  EXPECT_EQ(report.level, HealthLevel::kWarn);
+  EXPECT_EQ(report.verdicts[kRearRight], CornerVerdict::kDamper);
+  EXPECT_NE(describe(report).find("rear_right damping 30 % below rear_left"), std::string::npos) << describe(report);
+  for (CornerState& corner : corners) corner.healthy.learned = false;  // nominal values are what somebody wants
+  EXPECT_EQ(describe(compareCorners(corners)), "all corners alike");
+}
+
 }  // namespace
 }  // namespace suspension_health_monitor

@@ -15,11 +15,11 @@ EPILOG = "doc/fleet.md tells more. Exit status: 0 done, 2 wrong usage, 3 unreada
 
 
 def parser():
-    result = argparse.ArgumentParser(prog="suspension_fleet", epilog=EPILOG,
+    result = argparse.ArgumentParser(prog="suspension_fleet", epilog=EPILOG, allow_abbrev=False,
                                      description="Many bags, many vehicles: their struts over months.")
     commands = result.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, module in COMMANDS.items():
-        command = commands.add_parser(name, help=module.HELP, description=module.HELP, epilog=EPILOG)
+        command = commands.add_parser(name, help=module.HELP, description=module.HELP, epilog=EPILOG, allow_abbrev=False)
         command.register("type", None, not_empty)
         module.add_options(command)
         command.set_defaults(run=module.run)

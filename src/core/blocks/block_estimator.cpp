@@ -229,7 +229,7 @@ std::optional<WindowEstimate> BlockEstimator::overTheDrive() {
   };
   if (drive_.blocks() > 0) return ofDriveFit();
   if (!hasBlocks() || !(has_theta_ || start())) return std::nullopt;
-  if (of_all_) theta_ = of_all_->theta;  // the newest strut may be another one
+  if (of_all_ && weights_.median.size() > 0) theta_ = of_all_->theta;  // the newest strut may be another one
   WindowEstimate result;
   for (int i = 0; i < kMostSteps; ++i) {
     const BlockVector before = theta_;

@@ -53,7 +53,8 @@ class OutputErrorProblem {
       initial_[s] = {inUnits(states[s].travel, parameters.motion().travel),
                      inUnits(states[s].travel_rate, parameters.motion().travel_rate)};
       const SampleMask* mask = maskOf(masks, s);
-      if (mask != nullptr && std::count(mask->begin(), mask->end(), 0) == std::ptrdiff_t(mask->size())) continue;
+      // Ceres takes no residual block of nothing.
+      if (mask != nullptr && std::none_of(mask->begin(), mask->end(), [](auto used) { return used != 0; })) continue;
       problem_.AddResidualBlock(new SegmentCost(segments, s, mask, parameters, outlier, memories_), nullptr,
                                 model_.data(), initial_[s].data());
     }

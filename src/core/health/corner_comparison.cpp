@@ -154,6 +154,22 @@ void compareAxles(const Changes& changes, const Members& valid, CornerComparison
   }
 }
 
+// A baseline that was learned may be that of a damaged vehicle: then its own left and right differ.
+void compareBaselines(std::array<CornerState, kNumCorners> corners, const Members& valid,
+                      CornerComparisonReport& report) {
+  for (const std::size_t corner : valid) {
+    auto& [estimate, healthy] = corners[corner];
+    if (!healthy.learned) return;
+    estimate.damping_to_mass = *healthy.damping_to_mass;
+    estimate.stiffness_to_mass = *healthy.stiffness_to_mass;
+    estimate.damping_to_mass_stddev = healthy.damping_to_mass_stddev;
+    estimate.stiffness_to_mass_stddev = healthy.stiffness_to_mass_stddev;
+  }
+  CornerComparisonReport then = report;
+  compareAxles(*changesOf(corners, valid, false), valid, then);
+  if (!then.damages.empty()) report = then;
+}
+
 }  // namespace
 
 std::optional<CornerPlaces> cornersAmong(const std::vector<std::string>& struts) {
@@ -180,6 +196,7 @@ CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>
     compareWithAll(*changes, valid, report);
   else
     compareAxles(*changesOf(corners, valid, false), valid, report);  // a valid estimate is above 0
+  if (changes && report.damages.empty()) compareBaselines(corners, valid, report);
   return report;
 }
 
