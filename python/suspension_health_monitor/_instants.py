@@ -12,7 +12,7 @@ def to_utc(name, values):
     instants = [_instant(each) for each in values.flat]
     if None in instants:
         k = instants.index(None)
-        raise ValueError(f"{name}[{k}] = {values.flat[k]!r}, must be a datetime, or a date as text such as "
+        raise ValueError(f"{name}[{k}] = {values.ravel().tolist()[k]!r}, must be a datetime, or a date as text such as "
                          "2026-05-01T12:00:00.25+02:00; numbers must be in an array of numbers")
     return np.array(instants, dtype="datetime64[ns]").reshape(values.shape)
 

@@ -1,6 +1,5 @@
 """read_csv(): the same readings as the arrays that the file was written from; units, dates and what it says of the rest."""
 import os
-import pathlib
 import re
 import subprocess
 import sys
@@ -112,9 +111,10 @@ def test_what_cannot_be_read_is_told_by_line_and_column(lines, options, words, t
 
 
 def test_files_that_are_no_csv(tmp_path, made):
+    (tmp_path / "binary").write_bytes(bytes(range(1, 256)) * 100)
     for path, words in ((tmp_path / "none.csv", "none.csv cannot be read: No such file"),
                         (tmp_path, "cannot be read: Is a directory"),
-                        (pathlib.Path(sys.executable), "has no line with the columns time, body, wheel")):
+                        (tmp_path / "binary", "has no line with the columns time, body, wheel")):
         with pytest.raises(ValueError, match=words):
             shm.read_csv(path)
 

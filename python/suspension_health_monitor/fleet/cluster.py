@@ -19,8 +19,11 @@ from .errors import FleetError
 
 PER_THREAD = 2  # bags under way for each thread: one that is read, one that waits for it
 # What a scheduler keeps of tasks that are done; by default the last 100 000, which is memory that grows with a scan.
-KEPT = {"distributed.scheduler.transition-log-length": 100, "distributed.scheduler.events-log-length": 100,
-        "distributed.admin.log-length": 100, "distributed.diagnostics.computations.max-history": 1}
+# Newer Dask has one name for two of them, and warns of the former ones.
+_LOGS = ({"distributed.admin.low-level-log-length"} if dask.config.get("distributed.admin.low-level-log-length", None)
+         else {"distributed.scheduler.transition-log-length", "distributed.scheduler.events-log-length"})
+KEPT = {**dict.fromkeys(_LOGS, 100), "distributed.admin.log-length": 100,
+        "distributed.diagnostics.computations.max-history": 1}
 # How often Dask looks at itself: by default 50 times a second in every process, which is a tenth of what the bags take.
 WATCHED = {"distributed.admin.tick.interval": "1s", "distributed.admin.system-monitor.interval": "10s",
            "distributed.worker.profile.interval": "24h",
