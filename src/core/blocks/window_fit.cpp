@@ -151,8 +151,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   result.is_settled =
       ((solved_ - result.theta.head<2>()).array().square() <= result.covariance.diagonal().head<2>().array()).all();
   result.noise = weights_.noise;
-  result.gain_spread = 0.0;
-  result.alike = 0.0;
+  result.alike = result.gain_spread = 0.0;
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
   using Band = StrutBlock::Band;
@@ -164,6 +163,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
     const Band& each = sums_[i];
     unexplained += residualPower(each.moments, result.theta);
     powers += each.powers;
+    if (columns_.neighbours > 0) continue;  // what the others do differs between bands, too
     const double own = each.information(kBlockGain, kBlockGain);
     const double off = scoreOf(each, result.theta, weights_.share_scale[i])[kBlockGain] / own;
     const double by_noise = std::sqrt(kBinCorrelation * weights_.noise[i] / own);
