@@ -247,7 +247,7 @@ Wait measureTime(const FamilyDrive& drive) {
   follow({drive.field, drive.delivery}, drive.seconds, pipeline, [&](double time, const MonitorReport&) {
     if (time < look_at || std::isfinite(wait.passed)) return;
     look_at += kEvery;
-    driven += drive.field.stops && std::fmod(time, 60.0) > 40.0 ? 0.0 : kEvery;
+    if (!drive.field.restsAt(time)) driven += kEvery;
     const StrutEstimate estimate = pipeline.overTheDrive();
     const double known_to = estimate.knownTo();
     if (!(known_to > 0.0)) return;

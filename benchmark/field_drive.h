@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -48,6 +49,9 @@ struct FieldDrive {
   double skew = 0.0;                                 ///< the wheel's readings are stamped so much late, up to 30 ms [s]
   double mass = 1.0;                                 ///< of the body, to that of the healthy vehicle
   bool potholes = false, washboard = false, stops = false;
+  static constexpr double kStopsEvery = 60.0, kDrivesFor = 40.0;  ///< [s]; if it stops
+
+  bool restsAt(double time) const { return stops && std::fmod(time, kStopsEvery) >= kDrivesFor; }
   double engine = 0.0;                      ///< acceleration of the body by an engine [m/s^2]
   double idle_from = 25.0, idle_to = 40.0;  ///< that turns at this frequency, slowly up and down [Hz]
   double friction = 0.0;                    ///< dry, between body and wheel, over the body's mass [m/s^2]
@@ -132,9 +136,9 @@ class FieldSimulator {
 
   double speed() {
     if (!drive_.stops) return drive_.speed;
-    const double phase = std::fmod(time_, 60.0);  // 40 s of driving, 20 s of rest, 4 s to stop and to start
-    const double share = phase < 4.0 ? phase / 4.0 : phase < 36.0 ? 1.0 : phase < 40.0 ? (40.0 - phase) / 4.0 : 0.0;
-    return drive_.speed * share;
+    constexpr double kToStop = 4.0;  // [s], and to start
+    const double since = std::fmod(time_, FieldDrive::kStopsEvery), until = FieldDrive::kDrivesFor - since;
+    return drive_.speed * std::clamp(std::min(since, until) / kToStop, 0.0, 1.0);
   }
 
   double roadHeight() {

@@ -168,7 +168,7 @@ bool BlockEstimator::startBy(int window) {
   const bool has_other_gain = open[kBlockGain] > -1.0 && startAt(open, window) &&
                               trial_.explained > kBlockTuning.nearly_all &&
                               explainsMostBands(window_fit_.power(), pointers_, equations_.noiseBands());
-  const bool differ = has_other_gain && trial_.gainsDiffer();
+  const bool differ = has_other_gain && window_fit_.gainsDiffer(trial_);
   if (!has_other_gain) theta_ = found;
   first_.mean[kBlockGain] = differ ? theta_[kBlockGain] : has_other_gain ? 0.0 : mean;
   first_.stddev[kBlockGain] = differ ? kBlockTuning.gain_stddev : stddev;

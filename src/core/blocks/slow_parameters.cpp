@@ -29,7 +29,8 @@ void BlockEstimator::lookAtSensors() {
   const bool is_known = fit(count_, first_, trial_, true);
   if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
     first_.stddev[kBlockDelay] = kBlockTuning.held;
-  const bool tells_gain = is_known && trial_.explained >= kBlockTuning.nearly_all, differ = trial_.gainsDiffer();
+  const bool tells_gain = is_known && trial_.explained >= kBlockTuning.nearly_all;
+  const bool differ = window_fit_.gainsDiffer(trial_);
   if (tells_gain && !differ) first_.mean[kBlockGain] = 0.0;
   if (!tells_gain || !differ) first_.stddev[kBlockGain] = kBlockTuning.held;
 }

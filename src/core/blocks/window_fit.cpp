@@ -44,14 +44,8 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
   result.blocks = blocks_;
   result.theta = start;
   solved_ = start.head<2>();
-  const auto weighAgain = [&] {
-    if (!weigh(blocks, result.theta)) return false;
-    gathered_ = 0;
-    gather(blocks);
-    return true;
-  };
   gather(blocks);
-  if (is_near) weighAgain();
+  if (is_near && weigh(blocks, start)) gather(blocks);
   for (int w = 0; w < kBlockTuning.weightings; ++w) {
     for (int i = 0; i < kBlockTuning.weightings; ++i) {
       measureNoise(result.theta);
@@ -66,7 +60,8 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
       result.theta[kBlockWheelShare] =
           std::clamp(result.theta[kBlockWheelShare], kBlockTuning.least_share, 1.0 - kBlockTuning.least_share);
     }
-    if (!weighAgain()) break;
+    if (!weigh(blocks, result.theta)) break;
+    gather(blocks);
   }
   measureNoise(result.theta);
   describe(blocks, prior, least_inflation, result);
@@ -93,7 +88,7 @@ void WindowFit::gather(const std::vector<const StrutBlock*>& blocks) {
 }
 
 // How much each block counts.
-// @return true if that has changed.
+// @return true if that has changed: the sums have to be gathered anew.
 bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {
   for (int b = 0; b < blocks_; ++b) {
     power_.col(b) = residualPowers(*blocks[b], bands_, theta).array();
@@ -103,6 +98,7 @@ bool WindowFit::weigh(const std::vector<const StrutBlock*>& blocks, const BlockV
   present /= present.maxCoeff();  // where all are noisy that is the noise
   const bool has_changed = (present != weight).any();
   weight = present;
+  if (has_changed) gathered_ = 0;
   return has_changed;
 }
 
@@ -151,7 +147,7 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   result.is_settled =
       ((solved_ - result.theta.head<2>()).array().square() <= result.covariance.diagonal().head<2>().array()).all();
   result.noise = weights_.noise;
-  result.alike = result.gain_spread = 0.0;
+  result.alike = 0.0;
   if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
 
   using Band = StrutBlock::Band;
@@ -159,15 +155,9 @@ void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const Blo
   double unexplained = 0.0;
   Eigen::Vector2d age = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, 4> of_quarter = Eigen::Matrix<double, 2, 4>::Zero();
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const Band& each = sums_[i];
+  for (const Band& each : sums_) {
     unexplained += residualPower(each.moments, result.theta);
     powers += each.powers;
-    if (columns_.neighbours > 0) continue;  // what the others do differs between bands, too
-    const double own = each.information(kBlockGain, kBlockGain);
-    const double off = scoreOf(each, result.theta, weights_.share_scale[i])[kBlockGain] / own;
-    const double by_noise = std::sqrt(kBinCorrelation * weights_.noise[i] / own);
-    result.gain_spread = std::max(result.gain_spread, std::abs(off) - kLikely * by_noise);
   }
   for (int b = 0; b < blocks_; ++b) {
     const StrutBlock& block = *blocks[b];
@@ -226,6 +216,17 @@ double WindowFit::inflation(const std::vector<const StrutBlock*>& blocks, const 
   const Eigen::Matrix2d covariance = result.covariance.topLeftCorner<2, 2>();
   if (!(covariance.determinant() > 0.0)) return std::numeric_limits<double>::infinity();
   return 0.5 * (covariance.inverse() * scattered).trace();
+}
+
+bool WindowFit::gainsDiffer(const WindowEstimate& estimate) const {
+  double spread = 0.0;  // by which gamma of one band alone differs, beyond its noise
+  for (int i = 0; columns_.neighbours == 0 && i < bands_.count(); ++i) {
+    const double own = sums_[i].information(kBlockGain, kBlockGain);
+    const double off = scoreOf(sums_[i], estimate.theta, weights_.share_scale[i])[kBlockGain] / own;
+    spread = std::max(spread, std::abs(off) - kLikely * std::sqrt(kBinCorrelation * weights_.noise[i] / own));
+  }
+  const double by_chance = kCertain * std::sqrt(estimate.covariance(kBlockGain, kBlockGain));
+  return std::abs(estimate.theta[kBlockGain]) >= kLeastDifference + by_chance + spread / kMajority;
 }
 
 double WindowFit::scatterBetweenBlocks(const std::vector<const StrutBlock*>& blocks, const BlockVector& theta) {

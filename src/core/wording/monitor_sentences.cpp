@@ -163,12 +163,13 @@ std::string describeShared(const HealthReport& report) {
 
 std::string nameOf(std::size_t corner) { return std::string(kCornerNames[corner]); }
 
-std::string describe(const CornerDamage& damage, CornerVerdict verdict, bool by_nominal) {
-  const char* of_axle = by_nominal ? "as the baseline was learned" : "no baseline";
+std::string describe(const CornerDamage& damage, const CornerComparisonReport& report) {
+  const bool is_damper = report.verdicts[damage.corner] == CornerVerdict::kDamper;
+  const char* of_axle = report.by_nominal ? "when the baseline was learned" : "no baseline";
   const std::string note = join({intervalOf(damage.change, damage.stddev), damage.partner ? of_axle : ""});
-  return nameOf(damage.corner) + (verdict == CornerVerdict::kDamper ? " damping " : " stiffness ") +
-         sideInPercent(damage.change) + " " + (damage.partner ? nameOf(*damage.partner) : "the other corners") +
-         (note.empty() ? "" : " (" + note + ")") + ": damage";
+  return nameOf(damage.corner) + (is_damper ? " damping " : " stiffness ") + sideInPercent(damage.change) + " " +
+         (damage.partner ? nameOf(*damage.partner) : "the other corners") + (note.empty() ? "" : " (" + note + ")") +
+         ": damage";
 }
 
 std::string describeLoad(const CornerComparisonReport& report) {
@@ -242,8 +243,7 @@ std::string describe(const CornerComparisonReport& report) {
   if (report.numValid() < 3)
     return "cannot tell: " + std::to_string(report.numValid()) + " of 4 corners have a valid estimate, 3 are needed";
   std::vector<std::string> parts;
-  for (const CornerDamage& damage : report.damages)
-    parts.push_back(describe(damage, report.verdicts[damage.corner], report.by_nominal));
+  for (const CornerDamage& damage : report.damages) parts.push_back(describe(damage, report));
   if (report.load) parts.push_back(describeLoad(report));
   if (report.dampers)
     parts.push_back("damping of all other corners alike " + sizeInPercent(*report.dampers) +

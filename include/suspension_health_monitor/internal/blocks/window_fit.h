@@ -43,7 +43,6 @@ struct WindowEstimate {
   double age = 0.0;        ///< of the information on b1, b0, before the end of the newest block [s]
   std::optional<ChangedStretch> change;  ///< of a whole drive
   BandVector noise;                      ///< power of e per bin of each band: the unexplained spectrum
-  double gain_spread = 0.0;              ///< by which gamma of one band alone differs, beyond its noise
 
   /// @param i  b1 or b0. A damping below kBlockTuning.least_damping is known as well as that one is: a strut without a
   /// damper is one, too.
@@ -66,12 +65,6 @@ struct WindowEstimate {
     return {theta[i], std::sqrt(covariance(i, i)), gain, covariance(0, i), gain * rate / travel};
   }
   bool isUsable() const;  ///< finite, with b1, b0 above 0
-  /// @return true if the two sensors' gains differ by more than links and laws with memory make of them. A gain is the
-  /// same at all frequencies. What a spring with memory makes of it differs between bands by half of itself and more.
-  bool gainsDiffer() const {
-    const double stddev = std::sqrt(covariance(kBlockGain, kBlockGain));
-    return std::abs(theta[kBlockGain]) >= kLeastDifference + kCertain * stddev + gain_spread / kMajority;
-  }
   double worst() const { return std::max(relativeStddev(kBlockDamping), relativeStddev(kBlockStiffness)); }
 };
 
@@ -163,6 +156,12 @@ class WindowFit {
 
   /// @return those of the newest fit, without the median.
   const BlockWeights& weights() const { return weights_; }
+
+  /// @return true if the two sensors' gains differ by more than links and laws with memory make of them. A gain is the
+  /// same at all frequencies. What a spring with memory makes of it differs between bands by half of itself and more;
+  /// so does what the other struts of a vehicle do, where bands tell nothing.
+  /// @param estimate  of the newest fit.
+  bool gainsDiffer(const WindowEstimate& estimate) const;
 
   /// @return median over blocks that share no reading of the squared distance between their own b1, b0, over what noise
   /// makes of it, at least 1; of the newest fit.

@@ -64,7 +64,8 @@ struct CornerComparisonReport {
 /// not see it. A corner whose e leaves the median of the other corners is damaged; it is taken out, and the rest is
 /// compared anew. The other wheel of the axle carries the same load, so it shows whether damper or spring changed.
 /// What all dampers do alike (they warm up) accuses none. Without the healthy values of all corners the two wheels of
-/// each axle are compared with each other; the weaker one is accused, since dampers and springs fail that way.
+/// each axle are compared with each other; the weaker one is accused, since dampers and springs fail that way. So are
+/// healthy values that were learned, since a damaged vehicle may have taught them.
 /// Fewer than three valid corners say nothing: of two that differ either may be the one. Three that are alike are no
 /// proof of the fourth: kStale.
 CornerComparisonReport compareCorners(const std::array<CornerState, kNumCorners>& corners);
