@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/strut_model.h"
@@ -182,6 +183,7 @@ enum class SensorFault : unsigned char {
   kNone,
   kSprungStuck,      ///< the body's IMU reads one value while the other moves
   kUnsprungStuck,    ///< the wheel carrier's IMU, likewise
+  kOtherAxis,        ///< gravity is on another axis of an IMU than the settings say, and no estimate is valid
   kInG,              ///< one IMU reads 1 on average where the other reads gravity
   kNegativeDamping,  ///< damping is certainly negative
   kUnrelated,        ///< both move, but the one is not what a strut makes of the other
@@ -193,6 +195,8 @@ struct SensorReport {
   SensorFault fault = SensorFault::kNone;
   std::array<double, 2> mean{};  ///< sprung, unsprung
   double gain = 0.0;             ///< StrutEstimate::gain, of kGainsDiffer
+  /// Of kOtherAxis: what gravity says points up, "x" to "-z"; sprung, unsprung; empty: as the settings say.
+  std::array<std::string_view, 2> up{};
 };
 
 /// @return the finding in words for a person; empty for kNone.

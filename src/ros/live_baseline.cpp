@@ -166,6 +166,9 @@ void requireOneReference(const std::string& file, const MonitorOptions& options)
 LiveBaseline::LiveBaseline(const PipelineOptions& options) : path_(options.shell.baseline_file) {
   if (path_.empty()) return;
   requireOneReference(path_, options.monitor);
+  const std::string folder = std::filesystem::path(path_).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw std::invalid_argument("baseline_file = \"" + path_ + "\": there is no folder " + folder);
   if (!std::filesystem::exists(path_)) return;
   OptionMap values = readYaml(path_);
   if (areSettings(values))

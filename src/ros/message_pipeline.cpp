@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "conversions.h"
-#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -28,20 +27,19 @@ MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStr
                          if (keeps_samples) keep(sample);
                        }}),
       sensors_(streams, options.common.shell, transforms),
-      streams_(streams),
-      mounts_(streams.sensors.size()),
       forces_(options.forceNames()),
       kept_span_(options.common.shell.diagnose_window) {}
 
 void MessagePipeline::push(std::size_t sensor, const sensor_msgs::Imu& message) {
   const std::vector<double>& values = sensors_.read(sensor, message);
   if (values.empty()) return;
-  const geometry_msgs::Vector3& a = message.linear_acceleration;
-  mounts_[sensor].add(toStamp(message.header.stamp), {a.x, a.y, a.z});
   if (recent_body_ && sensor == indexOf(Side::kSprung))
     if (const BodyMotion motion = sensors_.mount(sensor).across(message); recent_body_->isNewer(motion))
       recent_body_->push(motion);
   VehiclePipeline::push(sensor, toStamp(message.header.stamp), values.data());
+  if (monitor() == nullptr) return;
+  const std::optional<MountClaim::Finding> gravity = sensors_.gravityOf(sensor);
+  monitor()->setUp(sensors_.streams().sensors[sensor], gravity && gravity->isOnAnotherAxis() ? gravity->name() : "");
 }
 
 void MessagePipeline::push(std::size_t sensor, const geometry_msgs::WrenchStamped& message) {
@@ -86,36 +84,6 @@ VehicleDrive MessagePipeline::newestSamples(double span) const {
   return drive;
 }
 
-std::optional<MountClaim::Finding> MessagePipeline::mount(std::size_t sensor) const {
-  const tf2::Vector3& up = sensors_.mount(sensor).up();
-  return mounts_[sensor].find({up.x(), up.y(), up.z()});
-}
-
-std::vector<std::string> MessagePipeline::mountFaults(const std::vector<std::string>& names) const {
-  std::vector<bool> is_inclined(mounts_.size(), false);
-  for (std::size_t i = 0; i < numStruts(); ++i) {
-    if (!streams_.channels.struts[i].sprung) continue;
-    const std::size_t top = streams_.bodyImuOf(i), wheel = streams_.wheelImuOf(i);
-    const auto a = mount(top), b = mount(wheel);
-    is_inclined[top] = is_inclined[wheel] = a && b && a->leansAs(*b);
-  }
-  std::vector<std::string> faults(mounts_.size());
-  for (std::size_t i = 0; i < std::min(mounts_.size(), names.size()); ++i) {
-    using Place = VehicleStreams::Place;
-    const Place place = streams_.sensors[i].place;
-    if (place == Place::kForce) continue;
-    std::optional<MountClaim::Finding> found = mount(i);
-    if (!found) continue;
-    // The body's IMU is turned upright.
-    if (is_inclined[i] || place == Place::kBody) found->lean = 0.0;
-    const char* setting = place == Place::kUnsprung ? "unsprung_axis"
-                          : place == Place::kRoad   ? "road_axis"
-                                                    : "sprung_axis";
-    faults[i] = describe(*found, names[i], setting);
-  }
-  return faults;
-}
-
 RejectCounts MessagePipeline::rejected(std::size_t sensor) const {
   RejectCounts all = sensors_.rejected(sensor);
   all += VehiclePipeline::rejected(sensor);
@@ -124,7 +92,7 @@ RejectCounts MessagePipeline::rejected(std::size_t sensor) const {
 
 RejectCounts MessagePipeline::rejected() const {
   RejectCounts all = VehiclePipeline::rejected();
-  for (std::size_t i = 0; i < mounts_.size(); ++i) all += sensors_.rejected(i);
+  for (std::size_t i = 0; i < sensors_.streams().sensors.size(); ++i) all += sensors_.rejected(i);
   return all;
 }
 

@@ -12,7 +12,6 @@
 
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/signal/recent_samples.h"
-#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_options.h"
 #include "vehicle_sensors.h"
@@ -45,10 +44,10 @@ class MessagePipeline : public VehiclePipeline {
   /// @return the frame of an IMU whose transform is missing; empty if none is.
   const std::string& missingTransform(std::size_t sensor) const { return sensors_.mount(sensor).missingTransform(); }
 
-  /// @param names  of sensors, from the first on.
-  /// @return by sensor how its gravity contradicts the settings, in a sentence; empty: it does not. Two IMUs of a strut
-  /// that lean alike are along an inclined strut.
-  std::vector<std::string> mountFaults(const std::vector<std::string>& names) const;
+  /// As VehicleSensors.
+  std::vector<std::string> mountFaults(const std::vector<std::string>& names) const {
+    return sensors_.mountFaults(names);
+  }
 
   /// @return messages of a sensor, or of all, that were kept out so far, wherever it was noticed.
   RejectCounts rejected(std::size_t sensor) const;
@@ -68,12 +67,9 @@ class MessagePipeline : public VehiclePipeline {
 
   void keep(const VehicleSample& sample);
 
-  std::optional<MountClaim::Finding> mount(std::size_t sensor) const;
-  std::size_t numStruts() const { return streams_.channels.struts.size(); }
+  std::size_t numStruts() const { return sensors_.streams().channels.struts.size(); }
 
   VehicleSensors sensors_;
-  VehicleStreams streams_;
-  std::vector<MountClaim> mounts_;  // by sensor
   std::vector<std::string> forces_;
   double kept_span_;                               // [s]
   std::vector<Recent<StrutSample>> recent_;        // by strut, from the first sample on, as are the others

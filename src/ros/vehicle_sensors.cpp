@@ -8,6 +8,7 @@
 
 #include "conversions.h"
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -108,17 +109,22 @@ BodyMotion ImuMount::across(const sensor_msgs::Imu& imu) const {
 }
 
 VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions& options,
-                               const tf2::BufferCore* transforms) {
+                               const tf2::BufferCore* transforms)
+    : streams_(streams) {
   for (const VehicleStreams::Sensor& sensor : streams.sensors)
-    sensors_.push_back({sensor.place, mountOf(sensor.place, options, transforms), sensor.fields, {}});
+    sensors_.push_back({sensor.place, mountOf(sensor.place, options, transforms), sensor.fields, {}, {}});
   values_.reserve(6);
 }
 
 const std::vector<double>& VehicleSensors::read(std::size_t sensor, const sensor_msgs::Imu& message) {
   Sensor& its = sensors_[sensor];
   values_.clear();
-  if (const std::optional<RejectReason> reason = its.mount.read(message, its.place == Place::kBody, values_))
+  if (const std::optional<RejectReason> reason = its.mount.read(message, its.place == Place::kBody, values_)) {
     its.rejected.add(*reason);
+    return values_;
+  }
+  const geometry_msgs::Vector3& a = message.linear_acceleration;
+  its.claim.add(toStamp(message.header.stamp), {a.x, a.y, a.z});
   return values_;
 }
 
@@ -129,6 +135,35 @@ const std::vector<double>& VehicleSensors::read(std::size_t sensor, const geomet
   values_.clear();
   for (const std::size_t field : sensors_[sensor].fields) values_.push_back(all[field]);
   return values_;
+}
+
+std::optional<MountClaim::Finding> VehicleSensors::gravityOf(std::size_t sensor) const {
+  const tf2::Vector3& up = mount(sensor).up();
+  return sensors_[sensor].claim.find({up.x(), up.y(), up.z()});
+}
+
+std::vector<std::string> VehicleSensors::mountFaults(const std::vector<std::string>& names) const {
+  std::vector<bool> is_inclined(sensors_.size(), false);
+  for (std::size_t i = 0; i < streams_.channels.struts.size(); ++i) {
+    if (!streams_.channels.struts[i].sprung) continue;
+    const std::size_t top = streams_.bodyImuOf(i), wheel = streams_.wheelImuOf(i);
+    const auto a = gravityOf(top), b = gravityOf(wheel);
+    is_inclined[top] = is_inclined[wheel] = a && b && a->leansAs(*b);
+  }
+  std::vector<std::string> faults(sensors_.size());
+  for (std::size_t i = 0; i < std::min(sensors_.size(), names.size()); ++i) {
+    const Place place = streams_.sensors[i].place;
+    if (place == Place::kForce) continue;
+    std::optional<MountClaim::Finding> found = gravityOf(i);
+    if (!found) continue;
+    // The body's IMU is turned upright.
+    if (is_inclined[i] || place == Place::kBody) found->lean = 0.0;
+    const char* setting = place == Place::kUnsprung ? "unsprung_axis"
+                          : place == Place::kRoad   ? "road_axis"
+                                                    : "sprung_axis";
+    faults[i] = describe(*found, names[i], setting);
+  }
+  return faults;
 }
 
 void requireFrame(const std::string& target_frame, const tf2::BufferCore& transforms) {

@@ -14,6 +14,7 @@
 #include "shell_options.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/vehicle/gravity.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 
 namespace suspension_health_monitor {
@@ -85,14 +86,26 @@ class VehicleSensors {
   /// @return messages of a sensor that were kept out so far.
   const RejectCounts& rejected(std::size_t sensor) const { return sensors_[sensor].rejected; }
 
+  /// @return what gravity tells of an IMU against the settings; nothing as long as it tells nothing.
+  std::optional<MountClaim::Finding> gravityOf(std::size_t sensor) const;
+
+  /// @param names  of sensors, from the first on.
+  /// @return by sensor how its gravity contradicts the settings, in a sentence; empty: it does not. Two IMUs of a strut
+  /// that lean alike are along an inclined strut.
+  std::vector<std::string> mountFaults(const std::vector<std::string>& names) const;
+
+  const VehicleStreams& streams() const { return streams_; }
+
  private:
   struct Sensor {
     VehicleStreams::Place place;
     ImuMount mount;                   // of an IMU
     std::vector<std::size_t> fields;  // of a wrench
     RejectCounts rejected;
+    MountClaim claim;  // of an IMU
   };
 
+  VehicleStreams streams_;
   std::vector<Sensor> sensors_;
   std::vector<double> values_;
 };

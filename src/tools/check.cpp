@@ -6,6 +6,7 @@
 #include "checked_imus.h"
 #include "command.h"
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/health/corner_comparison.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -54,7 +55,7 @@ void print(const CheckedImus& checked) {
   }
   std::vector<std::string> without_gravity;
   for (const CheckedImu& imu : checked.imus)
-    if (imu.survey.isKnown() && !imu.survey.gravity()) without_gravity.push_back(imu.topic);
+    if (imu.survey.tellsGravity() && !imu.survey.gravity()) without_gravity.push_back(imu.topic);
   if (!without_gravity.empty())
     std::printf("No gravity in %s: up is the axis that moves most, and its sign fits that of its pair.\n",
                 join(without_gravity).c_str());
@@ -63,8 +64,15 @@ void print(const CheckedImus& checked) {
   for (const BodyOverWheel& pair : checked.pairs) std::printf("%s\n", checked.sentenceOf(pair).c_str());
 }
 
-/// @return the name of a strut, which topics begin with: "front_left_imu".
-std::string nameOf(const std::string& topic) {
+/// @return the name of the strut over a wheel: the corner, if it is in this wheel's topic alone; else the topic's.
+std::string nameOf(const std::string& topic, const CheckedImus& checked) {
+  for (const std::string_view corner : kCornerNames) {
+    const auto isAt = [&](const std::string& other) { return other.find(corner) != std::string::npos; };
+    const auto isOther = [&](const BodyOverWheel& pair) {
+      return checked.imus[pair.wheel].topic != topic && isAt(checked.imus[pair.wheel].topic);
+    };
+    if (isAt(topic) && std::none_of(checked.pairs.begin(), checked.pairs.end(), isOther)) return std::string(corner);
+  }
   std::string name = topic.substr(topic.find_first_not_of('/'));
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
@@ -85,8 +93,8 @@ std::string vehicleOf(const CheckedImus& checked) {
   for (const BodyOverWheel& pair : checked.pairs) {
     const std::string &top = checked.imus[pair.body].topic, &wheel = checked.imus[pair.wheel].topic;
     if (!pair.is_own) body = "body_imu: " + top + "\n";
-    struts +=
-        "  " + nameOf(wheel) + ": {" + (pair.is_own ? "sprung_imu: " + top + ", " : "") + "unsprung_imu: " + wheel;
+    struts += "  " + nameOf(wheel, checked) + ": {" + (pair.is_own ? "sprung_imu: " + top + ", " : "") +
+              "unsprung_imu: " + wheel;
     struts += pair.is_own ? "}\n" : "}   # fill in: position: [x, y, z] of the strut's top from the body's IMU [m]\n";
   }
   std::string text = body + "struts:\n" + struts;
@@ -103,7 +111,7 @@ std::string nextCommand(const CheckedImus& checked, const std::vector<std::strin
   const std::string sensors = checked.pairs.size() > 1
                                   ? " --vehicle " + file
                                   : " --sprung-topic " + body.topic + " --unsprung-topic " + wheel.topic;
-  std::string command = "suspension_bag identify " + join(bags, " ") + sensors;
+  std::string command = "rosrun suspension_health_monitor suspension_bag identify " + join(bags, " ") + sensors;
   if (!areAlike(checked)) return command;
   if (body.upAxis() != "z") command += " --set sprung_axis=" + body.upAxis();
   if (wheel.upAxis() != "z") command += " --set unsprung_axis=" + wheel.upAxis();

@@ -46,7 +46,8 @@ std::optional<WheelRanges> wheelOf(const po::variables_map& values, const std::o
   const auto over = [&](const char* option, const ValueRange& range, const char* unit, double least, double most) {
     const double unit_mass = sprung_mass.value_or(1.0);
     for (const double value : {range.low, range.high})
-      requireIn(std::string("--") + option + " over the sprung mass", value / unit_mass, unit, least, most);
+      requireIn(std::string(sprung_mass ? "--" : "without sprung_mass, --") + option + " over the sprung mass",
+                value / unit_mass, unit, least, most);
     return ValueRange{range.low / unit_mass, range.high / unit_mass};
   };
   return WheelRanges{over(kWheelMass, *mass, "-", 0.003, 3.0), over(kTyreStiffness, *tyre, "1/s^2", 30.0, 1e5)};

@@ -54,7 +54,7 @@ ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, Veh
     rejected.push_back(sensors.rejected(i));
     rejected.back() += grid.rejected(i);
   }
-  return {std::move(grid), rejected};
+  return {std::move(grid), rejected, sensors.mountFaults(namesOf(bags.topics))};
 }
 
 RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
@@ -83,7 +83,7 @@ RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
 void printBags(const BagOptions& options, const std::vector<ReadSamples>& bags, const TopicGaps& gaps) {
   gaps.print();
   printPeriod(options, options.period());
-  for (const auto& [grid, rejected] : bags) {
+  for (const auto& [grid, rejected, mount_faults] : bags) {
     printReadings(grid);
     for (std::size_t i = 0; i < rejected.size(); ++i) printRejected(options.bags.topics[i].name, rejected[i]);
   }
@@ -128,6 +128,12 @@ AskedDrives::AskedDrives(const boost::program_options::variables_map& values)
       models(readModels(values, readVehicle(values), library)),
       options(readBagOptions(values)),
       gaps(options.settings.common.shell.input_timeout) {}
+
+void AskedDrives::read() {
+  recorded = readDrives(options, gaps);
+  for (const std::string& fault : recorded.bags.front().mount_faults)
+    if (!fault.empty()) gaps.add(fault);
+}
 
 RecordedComparison compareBags(const AskedDrives& asked, const std::function<void(double)>& progress) {
   const AskedVehicle& vehicle = asked.options.vehicle;

@@ -26,6 +26,7 @@ struct ReadSamples {
   VehicleGrid grid;  ///< after the last reading: takes no more
   std::vector<RejectCounts>
       rejected;  ///< by VehicleStreams::sensors, without that of the road, wherever it was noticed
+  std::vector<std::string> mount_faults;  ///< VehicleSensors::mountFaults()
 };
 
 /// Reads bags as samples of a vehicle: all sensors but that of the road on one grid, the strut tops known by their own
@@ -66,7 +67,7 @@ struct AskedDrives {
   /// @throws std::invalid_argument, InputError, TooLittleError  as readModels() and readBagOptions().
   explicit AskedDrives(const boost::program_options::variables_map& values);
 
-  void read() { recorded = readDrives(options, gaps); }
+  void read();
 
   EffectLibrary library;
   KnownModels models;

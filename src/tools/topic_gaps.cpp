@@ -45,7 +45,7 @@ void TopicGaps::note(std::size_t topic, Stamp stamp) {
 void TopicGaps::finishBag() { bags_.back().silence.finish(); }
 
 std::vector<std::string> TopicGaps::sentences() const {
-  std::vector<std::string> all;
+  std::vector<std::string> all = faults_;
   for (const Bag& bag : bags_) {
     if (bag.silences.empty()) continue;
     const auto after = [&](Stamp stamp) { return toSeconds(stamp - bag.first); };
@@ -67,9 +67,9 @@ void TopicGaps::explain(const std::function<void()>& check) const {
   try {
     check();
   } catch (const TooLittleError& error) {
-    std::string text = error.what();
-    for (const std::string& sentence : sentences()) text += "; " + sentence;
-    throw TooLittleError(text);
+    std::vector<std::string> reasons = sentences();
+    reasons.insert(reasons.begin() + static_cast<std::ptrdiff_t>(faults_.size()), error.what());
+    throw TooLittleError(join(reasons, "; "));
   }
 }
 

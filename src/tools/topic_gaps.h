@@ -9,7 +9,8 @@
 
 namespace suspension_health_monitor {
 
-/// Which topics were silent while others went on, bag by bag, and what of each bag was left to be used.
+/// What is wrong with what was read: which topics were silent while others went on, bag by bag, and what of each bag
+/// was left to be used; and what else was noticed.
 class TopicGaps {
  public:
   /// @param timeout  [s] a longer silence is one.
@@ -23,11 +24,14 @@ class TopicGaps {
   void note(std::size_t topic, Stamp stamp);
   void finishBag();
 
-  /// A line for every silence, then what was used; nothing if no topic was silent.
+  /// Something else that is wrong with what was read, in a sentence.
+  void add(const std::string& fault) { faults_.push_back(fault); }
+
+  /// A line for every fault and silence, then what was used; nothing if all is well.
   void print() const;
 
   /// Runs a check of what was read.
-  /// @throws TooLittleError  as the check, with the silences behind its words: they may be why.
+  /// @throws TooLittleError  as the check, with the faults before its words and the silences behind: they may be why.
   void explain(const std::function<void()>& check) const;
 
   /// The same for programs, by stamps.
@@ -42,11 +46,12 @@ class TopicGaps {
     Stamp first{}, last{};                              // readings
   };
 
-  /// @return by bag one for every silence, then what was used; none if no topic was silent.
+  /// @return the faults, then by bag one for every silence and what was used.
   std::vector<std::string> sentences() const;
 
   Stamp timeout_;
   std::vector<Bag> bags_;
+  std::vector<std::string> faults_;
 };
 
 }  // namespace suspension_health_monitor

@@ -58,7 +58,7 @@ def test_tells_bodies_wheels_and_axes_and_writes_a_vehicle_file_that_identify_ta
     told = next(line for line in output.splitlines() if line.startswith("Next: ")).partition(" ")[2]
     head = [line for line in (tmp_path / "vehicle.yaml").read_text().splitlines() if line.startswith("#")]
     assert head == ["# suspension_bag check has found this.", f"# {told}"]
-    program.succeed(*told.split()[1:], "--json", tmp_path / "identified.json")
+    program.succeed(*told.split()[3:], "--json", tmp_path / "identified.json")
     struts = json.loads((tmp_path / "identified.json").read_text())["struts"]
     for pair in found["pairs"]:
         for name in ("damping_to_mass", "stiffness_to_mass"):

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,26 @@ TEST(BandLimitedRecords, NoiseThatTheSensorHasFilteredIsNoStructure) {
   const Comparison compared = compare({linearStrut(0.05).drive(6000)});
   ASSERT_TRUE(compared) << compared.reason;
   EXPECT_LT(compared.structured_share, 0.2);
+}
+
+TEST(BandLimitedRecords, NoiseOfAWheelSensorThatIsTenTimesAsLoudIsNoStructure) {
+  Drive drive = linearStrut(0.0).drive(24000);
+  std::mt19937 generator(3);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  for (CornerSample& sample : drive.samples) {
+    sample.sprung_acceleration += noise(generator);
+    sample.unsprung_acceleration += 10.0 * noise(generator);
+  }
+  // 1 + r T (b1^2 + b0) / (2 b1) with r = 100.
+  const double floor = 0.02 * std::sqrt(1.0 + 100.0 * 0.01 * (36.0 + 63.0) / 12.0);  // 3 % of chance: 240 s, 1.5 Hz
+  const Diagnosis found = diagnose({drive});
+  ASSERT_TRUE(found) << found.reason;
+  EXPECT_EQ(found.verdict, Verdict::kNothingMissing);
+  EXPECT_NEAR(found.noise_floor, floor, 0.1 * floor);
+  const Comparison compared = compare({drive});
+  ASSERT_TRUE(compared) << compared.reason;
+  EXPECT_LT(compared.structured_share, 0.2);
+  EXPECT_TRUE(compared.views.whiteness.within);
 }
 
 TEST(BandLimitedRecords, OneLineOfForceIsNoNoise) {

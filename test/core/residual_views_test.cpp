@@ -44,7 +44,7 @@ ComparedSegment segmentWith(const Force& force, double noise = kNoise, unsigned 
 const auto kNothing = [](double, double, double) { return 0.0; };
 
 ResidualViews viewsOf(const ComparedSegment& segment, const LinearStrut& strut = kCar) {
-  const auto views = viewResidual({segment}, strut, kNoise);
+  const auto views = viewResidual({segment}, strut, {kNoise});
   EXPECT_TRUE(views);
   return views.value_or(ResidualViews{});
 }
@@ -170,7 +170,7 @@ TEST(ResidualViews, SamplesPerIndependentOneGrowWithTheMemoryOfTheNoise) {
   EXPECT_NEAR(1.0 / viewsOf(segment).independent_share, 9.0, 1.5);
 }
 
-TEST(ResidualViews, NoSegmentIsNothing) { EXPECT_FALSE(viewResidual({}, kCar, kNoise)); }
+TEST(ResidualViews, NoSegmentIsNothing) { EXPECT_FALSE(viewResidual({}, kCar, {kNoise})); }
 
 TEST(FindFailures, NoiseNamesNothingInAnyView) {
   for (unsigned seed = 1; seed <= 30; ++seed) {

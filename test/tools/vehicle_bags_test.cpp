@@ -151,7 +151,8 @@ TEST_F(VehicleBags, AreReadAsDrivesOfAllStrutsWithOneGrid) {
         ASSERT_NEAR(sample.unsprung_acceleration, wheel(i, t), 5e-3) << i << " at " << t;
       }
     }
-    const auto& [grid, rejected] = bags[0];
+    const VehicleGrid& grid = bags[0].grid;
+    const std::vector<RejectCounts>& rejected = bags[0].rejected;
     ASSERT_EQ(rejected.size(), 5u);
     for (std::size_t i = 0; i < rejected.size(); ++i)
       EXPECT_EQ(rejected[i].total() + grid.missed(i), 0u) << options.bags.topics[i].name;

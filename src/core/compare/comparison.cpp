@@ -182,6 +182,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   const auto free_run = errorOf(joined(seriesOf(comparison.segments, &ComparedSegment::measured)),
                                 joined(seriesOf(comparison.segments, &ComparedSegment::predicted)));
   if (!free_run) return Shortcoming::kTooShort;
+  if (options.fit && free_run->fit_percent < 0.0) return Shortcoming::kNoStableFit;  // worse than a constant
   comparison.free_run = *free_run;
   report(0.4);
   // What a free-form law of travel and travel rate, fitted to the rest, would take of the mean square that was held
@@ -204,15 +205,16 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
   // What a law of travel and travel rate takes is no noise, whatever its spectrum.
-  comparison.noise_floor =
-      by_law < kStructured
-          ? floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
-                            seriesOf(comparison.segments, &ComparedSegment::residuals), filter.period, comparison.model)
-          : std::min(comparison.noise_floor, law_leaves);
+  NoiseFloor floor{std::min(comparison.noise_floor, law_leaves)};
+  if (by_law < kStructured)
+    floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
+                            seriesOf(comparison.segments, &ComparedSegment::residuals),
+                            seriesOf(comparison.segments, &ComparedSegment::wheel), filter.period, comparison.model);
+  comparison.noise_floor = floor.rms;
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
   const LinearStrut strut = comparison.model.linearPart();
-  std::optional<ResidualViews> views = viewResidual(comparison.segments, strut, comparison.noise_floor);
+  std::optional<ResidualViews> views = viewResidual(comparison.segments, strut, floor);
   if (!views) return Shortcoming::kTooShort;
   comparison.views = std::move(*views);
   comparison.where = findFailures(comparison.views, strut, comparison.noise_floor);

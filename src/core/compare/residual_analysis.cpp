@@ -191,7 +191,7 @@ std::pair<double, double> coveredRange(Eigen::VectorXd values) {
 }
 
 std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& segments, const LinearStrut& strut,
-                                          double noise_floor) {
+                                          const NoiseFloor& noise_floor) {
   const std::optional<ResidualSeries> series = makeSeries(segments, strut);
   if (!series) return std::nullopt;
   const auto count = static_cast<double>(series->size());

@@ -77,13 +77,15 @@ inline auto crossCorrelation(const ResidualSeries& series, const Eigen::VectorXd
 
 /// @return autocorrelation of the residual, and its correlation with w'', each with the bands of ResidualCorrelation.
 inline std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const ResidualSeries& series,
-                                                                     const LinearStrut& strut, double noise_floor) {
+                                                                     const LinearStrut& strut,
+                                                                     const NoiseFloor& noise_floor) {
   const auto count = static_cast<double>(series.size());
   const int lags = static_cast<int>(
       std::min(std::clamp(std::round(series.natural_period), kCompareTuning.fewest_lags, kCompareTuning.most_lags),
                count / 4.0));
   const Eigen::VectorXd through = impulseResponse(strut, series.period, 8 * lags);
-  const double share = 1.0 / (1.0 + through.squaredNorm());  // of the floor's mean square: the body's own sensor
+  const double loud = noise_floor.wheel_to_body;
+  const double share = loud / (1.0 + loud * through.squaredNorm());  // of the floor's mean square: the wheel's sensor
 
   Eigen::VectorXd residual(lags + 1), wheel(lags + 1), expected(lags + 1);  // from lag 0 on
   const auto own = crossCorrelation(series, series.residual, series.residual);
@@ -108,7 +110,7 @@ inline std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const Resid
   const double sizes = series.residual.norm() * series.wheel.norm() / count;
   // Noise on w'' is in the model's input with its own sign, so in the residual with the opposite one.
   const auto through_model = [&](int lag) {
-    return lag > 0 && sizes > 0.0 ? -share * square(noise_floor) * through[lag - 1] / sizes : 0.0;
+    return lag > 0 && sizes > 0.0 ? -share * square(noise_floor.rms) * through[lag - 1] / sizes : 0.0;
   };
   return {std::move(whiteness),
           correlationOver(-lags, lags, series.period, crossCorrelation(series, series.residual, series.wheel),

@@ -29,7 +29,7 @@ struct ResidualSeries {
 /// @return nothing if not even two windows fit into the segments.
 inline std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series,
                                                   const std::vector<ComparedSegment>& segments,
-                                                  const LinearStrut& strut, double noise_floor) {
+                                                  const LinearStrut& strut, const NoiseFloor& noise_floor) {
   const std::vector<std::size_t> sizes = sizesOf(segments);
   const std::size_t length = Periodogram::lengthFor(sizes, series.natural_period);
   const std::size_t windows = Periodogram::windowsIn(sizes, length);
@@ -55,7 +55,8 @@ inline std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series,
   // gamma^2 of unrelated signals: P(gamma^2 > x) = (1 - x)^(n - 1).
   result.coherence_threshold = 1.0 - std::pow(0.05, 1.0 / std::max(1e-3, result.num_averages - 1.0));
   const double b1 = strut.damping_to_mass, b0 = strut.stiffness_to_mass;
-  const double own = noise_floor * noise_floor / noiseOfBothSensors(b1, b0, series.period);
+  const double loud = noise_floor.wheel_to_body;
+  const double own = square(noise_floor.rms) / noiseOfBothSensors(b1, b0, series.period, loud);
   for (std::size_t i = 1; i <= length / 2; ++i) {
     const double sides = i == length / 2 ? 1.0 : 2.0;
     const double scale = sides * series.period / (periodogram.taperPower() * static_cast<double>(windows));
@@ -64,7 +65,7 @@ inline std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series,
     result.residual.push_back(scale * residual[i]);
     result.measured.push_back(scale * measured[i]);
     const double gain = transmissibility(b1, b0, frequency);
-    result.noise.push_back(sides * series.period * own * (1.0 + gain * gain));
+    result.noise.push_back(sides * series.period * own * (1.0 + loud * gain * gain));
     const double power = residual[i] * wheel[i];
     result.coherence.push_back(power > 0.0 ? std::norm(cross[i]) / power : 0.0);
   }

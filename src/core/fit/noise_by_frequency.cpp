@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -45,7 +47,9 @@ double levelAtLimit(const Records& records) {
   return std::sqrt(at_limit / Periodogram(kWindow).taperPower());
 }
 
-constexpr std::size_t kParts = 4;           // of the drives, in each of which noise is the same
+constexpr std::size_t kParts = 4;  // of the drives, in each of which noise is the same
+// Power of the noise of the wheel's sensor to the body's: alike first, up to ranges of 400 and 12 g.
+constexpr std::array kRatios{1.0, 0.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0};
 constexpr std::size_t kWindowsOfPart = 12;  // at least, for an average over them
 
 /// Spectra of the residuals in each part of the drives.
@@ -75,51 +79,74 @@ std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_
   return spectra;
 }
 
-/// Noise that a sensor has filtered, as most do inside: white within a band, next to nothing beyond it, where an
-/// interpolation (noise_floor.cpp) sees none. What a free run leaves is such noise if it is white within a band of its
-/// own, and the same in every quarter of the drives; what a law leaves is strong near resonance and weak elsewhere, or
-/// goes with a sweep.
+/// @return the most power that white noise of a sensor can have at one frequency, in units of the spectra: the lowest
+/// that its readings show at any, 3 standard deviations of an average above it.
+double mostNoise(const PartSpectra& readings) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t f = 1; f < readings.length / 2; ++f) {
+    double sum = 0.0;
+    for (const std::vector<double>& power : readings.parts) sum += power[f];
+    lowest = std::min(lowest, sum / kParts);
+  }
+  return lowest / (1.0 - 3.0 / std::sqrt(kParts * readings.averages));
+}
+
+/// Noise of a sensor that is louder than the other's, or that a sensor has filtered, as most do inside: white within a
+/// band, next to nothing beyond it. An interpolation (noise_floor.cpp) sees neither. What a free run leaves is such
+/// noise if it is white within a band of its own, and the same in every quarter of the drives; what a law leaves is
+/// strong near resonance and weak elsewhere, or goes with a sweep.
 ///
-/// White noise of both sensors has the spectrum n g(f), g = 1 + |G(f)|^2 for what comes through the model. The largest
-/// that fits under the spectrum S of the residual in a band of m frequencies has n = m / sum(g / S), the harmonic mean
-/// over frequencies and quarters, which is also what an interpolation of the band would leave (Kolmogorov). The band is
-/// where n sum(g) is largest.
-/// @param residuals  of a fit of the model.
-/// @return its share of the residual's power; 0 if there are too few samples to tell.
-double bandNoiseShare(const Residuals& residuals, double period, const StrutModel& model) {
+/// White noise of both sensors has the spectrum n g(f), g = 1 + r |G(f)|^2 for what comes through the model. The
+/// largest that fits under the spectrum S of the residual in a band has n = sum(g) / sum(g^2 / S), the harmonic mean of
+/// S / g over frequencies and quarters, weighted by the power g: n sum(g) reaches sum(S) only if S has the shape of g
+/// (Cauchy and Schwarz). The band and r are where n sum(g) is largest; the wheel's noise, n r, is not above mostNoise()
+/// of its readings.
+/// @param residuals  of a fit of the model.  @param wheel  w'', at the same samples.
+/// @return its rms as a share of the residual's; 0 if there are too few samples to tell.
+NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double period, const StrutModel& model) {
   const double natural_period = 2.0 * M_PI / (std::sqrt(model.stiffness_to_mass) * period);
   const std::optional<PartSpectra> spectra = spectraOf(residuals, natural_period);
-  if (!spectra) return 0.0;
-  // Sums from the first frequency to each: of the weights g, and of g / S over the parts.
-  std::vector<double> weight{0.0}, resistance{0.0};
+  if (!spectra) return {};
+  const std::size_t count = spectra->length / 2;
+  std::vector<double> gain(count), resistance(count);  // |G|^2, and the sum of 1 / S over the parts
   double all = 0.0;
-  for (std::size_t f = 1; f < spectra->length / 2; ++f) {
+  for (std::size_t f = 1; f < count; ++f) {
     const double frequency = static_cast<double>(f) / (static_cast<double>(spectra->length) * period);
-    const double gain = transmissibility(model.damping_to_mass, model.stiffness_to_mass, frequency);
-    weight.push_back(weight.back() + 1.0 + gain * gain);
-    resistance.push_back(resistance.back());
+    gain[f] = square(transmissibility(model.damping_to_mass, model.stiffness_to_mass, frequency));
     for (const std::vector<double>& power : spectra->parts) {
-      if (!(power[f] > 0.0)) return 0.0;
-      resistance.back() += (1.0 + gain * gain) / power[f];
+      if (!(power[f] > 0.0)) return {};
+      resistance[f] += 1.0 / power[f];
       all += power[f];
     }
   }
-  // The power of the largest white noise under the spectra in a band, of all parts.
-  const auto whiteIn = [&](std::size_t first, std::size_t end) {
-    const double level = kParts * static_cast<double>(end - first) / (resistance[end] - resistance[first]);
-    return kParts * level * (weight[end] - weight[first]);
-  };
   // A sensor passes what the strut does: the band begins below its natural frequency and goes beyond twice that.
   const auto natural = static_cast<std::size_t>(static_cast<double>(spectra->length) / natural_period);
-  double white = 0.0;
-  for (std::size_t first = 0; first < natural; ++first)
-    for (std::size_t end = 2 * natural + 1; end < weight.size(); ++end) white = std::max(white, whiteIn(first, end));
+  const double most = mostNoise(*spectraOf(wheel, natural_period));
+  // Chance lets one r fit a little better than the true one: what is larger by chance only is not taken.
+  const double beyond_chance = 1.0 + 3.0 / std::sqrt(kParts * spectra->averages * static_cast<double>(count));
+  double white = 0.0, louder = 1.0;
+  for (const double r : kRatios) {
+    double largest = 0.0;
+    for (std::size_t first = 1; first <= natural; ++first) {
+      double weight = 0.0, resisted = 0.0;  // sums of g, and of g^2 / S, over frequencies and parts
+      for (std::size_t f = first; f < count; ++f) {
+        const double g = 1.0 + r * gain[f];
+        weight += kParts * g;
+        resisted += g * g * resistance[f];
+        const double level = r > 1.0 ? std::min(weight / resisted, most / r) : weight / resisted;
+        if (f > 2 * natural) largest = std::max(largest, level * weight);
+      }
+    }
+    if (largest <= beyond_chance * white) continue;
+    white = largest;
+    louder = r;
+  }
   // By this factor the mean of 1 / S is too large where S is an average over so many windows.
   const double scatter = spectra->averages / (spectra->averages - 1.0);
   // Of the residuals' power the spectra lack what is slower than the windows are long: an offset, and what wanders.
   const double shown = all / spectra->unit, whole = meanSquare(residuals);
   const double slow = whole > shown ? 1.0 - shown / whole : 0.0;
-  return std::min(1.0, scatter * white / all) * (1.0 - slow);
+  return {std::sqrt(std::min(1.0, scatter * white / all) * (1.0 - slow)), louder};
 }
 
 }  // namespace
@@ -146,10 +173,11 @@ double floorOfKnownNoise(const Records& records, const StrutModel& model) {
   return std::sqrt(median(levels)) * std::sqrt(meanSquare(noise->residuals));
 }
 
-double floorOfResidual(double rmse, double noise_floor, const Residuals& residuals, double period,
-                       const StrutModel& model) {
-  const double in_band = rmse * std::sqrt(bandNoiseShare(residuals, period, model));
-  return std::min(rmse, isStructured(rmse, in_band) ? noise_floor : std::max(noise_floor, in_band));
+NoiseFloor floorOfResidual(double rmse, double noise_floor, const Residuals& residuals, const Residuals& wheel,
+                           double period, const StrutModel& model) {
+  const NoiseFloor in_band = bandNoise(residuals, wheel, period, model);
+  if (isStructured(rmse, rmse * in_band.rms)) return {std::min(rmse, noise_floor)};
+  return {std::min(rmse, std::max(noise_floor, rmse * in_band.rms)), in_band.wheel_to_body};
 }
 
 }  // namespace suspension_health_monitor

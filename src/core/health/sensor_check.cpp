@@ -53,7 +53,7 @@ const SensorReport& SensorCheck::judge(const StrutEstimate& estimate, const Stru
   const bool stuck = found == SensorFault::kSprungStuck || found == SensorFault::kUnsprungStuck;
   const bool of_motion = report_.fault == SensorFault::kNegativeDamping || report_.fault == SensorFault::kUnrelated;
   if (of_motion && estimate.tellsChanges()) report_.fault = SensorFault::kNone;
-  if (stuck || samples_ - pending_since_ >= memory_) {
+  if (stuck || found == SensorFault::kOtherAxis || samples_ - pending_since_ >= memory_) {
     report_.fault = found;
     report_.mean = {readings_[0].mean(), readings_[1].mean()};
     if (found == SensorFault::kGainsDiffer) report_.gain = estimate.gain;
@@ -66,6 +66,8 @@ SensorFault SensorCheck::find(const StrutEstimate& estimate, const StrutEstimate
   if (sprung_still && unsprung_still) return SensorFault::kNone;  // at rest, and nothing resolves its noise
   if (sprung_still) return SensorFault::kSprungStuck;
   if (unsprung_still) return SensorFault::kUnsprungStuck;
+  const bool is_on_other_axis = !report_.up[0].empty() || !report_.up[1].empty();
+  if (is_on_other_axis && !estimate.tellsChanges()) return SensorFault::kOtherAxis;
   if (samples_ < memory_) return SensorFault::kNone;
   if (isInG()) return SensorFault::kInG;
   if (estimate.tellsChanges()) {

@@ -34,8 +34,9 @@ double transmissibility(double damping_to_mass, double stiffness_to_mass, double
   return std::abs(force / (s * s + force));
 }
 
-double noiseOfBothSensors(double damping_to_mass, double stiffness_to_mass, double period) {
-  return 1.0 + period * (damping_to_mass * damping_to_mass + stiffness_to_mass) / (2.0 * damping_to_mass);
+double noiseOfBothSensors(double damping_to_mass, double stiffness_to_mass, double period, double wheel_to_body) {
+  return 1.0 +
+         wheel_to_body * period * (damping_to_mass * damping_to_mass + stiffness_to_mass) / (2.0 * damping_to_mass);
 }
 
 double integralFilterMagnitude(double horizon, double frequency_hz) {

@@ -77,6 +77,12 @@ void VehicleMonitor::addTemperature(std::size_t strut, Stamp stamp, double celsi
   if (isCoupled()) struts_[strut].addTemperature(stamp, celsius);
 }
 
+void VehicleMonitor::setUp(const VehicleStreams::Sensor& imu, std::string_view up) {
+  if (!isCoupled() || (imu.place != VehicleStreams::Place::kSprung && imu.place != VehicleStreams::Place::kUnsprung))
+    return;
+  struts_[imu.strut].setUp(imu.place == VehicleStreams::Place::kSprung ? Side::kSprung : Side::kUnsprung, up);
+}
+
 void VehicleMonitor::addReading(const VehicleChannels& vehicle, const VehicleReading& reading) {
   if (is_alone_) {
     const Side side = reading.sensor == VehicleReading::Sensor::kWheel ? Side::kUnsprung : Side::kSprung;

@@ -192,8 +192,10 @@ class Search {
 
   /// @return the noise floor of what a model leaves, see floorOfResidual().
   double floorOf(const EvaluatedModel& after, double floor) const {
-    return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals, records_.front()->period(),
-                           after.ranked.model);
+    return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals,
+                           seriesOf(segmentsOf(records_), &DriveSegment::unsprung), records_.front()->period(),
+                           after.ranked.model)
+        .rms;
   }
 
   /// Names are given if the model with them takes all of the structure but what counts as noise (kStructured), and as

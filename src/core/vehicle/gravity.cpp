@@ -67,10 +67,12 @@ void MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   begin_.reset();
 }
 
+bool MountClaim::isKnown() const { return parts_ >= kVehicleTuning.fewest_parts; }
+
 std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) const {
   Finding found;
   found.size = mean_.norm();
-  if (parts_ < kVehicleTuning.fewest_parts || !isGravity(found.size)) return std::nullopt;
+  if (!isKnown() || !isGravity(found.size)) return std::nullopt;
   found.lean = angleBetween(mean_, up);
   found.lean_stddev = std::sqrt(scatter_ / (parts_ - 1.0) / parts_) / found.size;
   mean_.cwiseAbs().maxCoeff(&found.axis);
@@ -84,6 +86,10 @@ bool MountClaim::Finding::isLeaning() const {
 }
 
 bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kVehicleTuning.other_axis; }
+
+std::string_view MountClaim::Finding::name() const {
+  return std::array<std::string_view, 6>{"x", "y", "z", "-x", "-y", "-z"}[axis + (is_negative ? 3 : 0)];
+}
 
 bool MountClaim::Finding::leansAs(const Finding& other) const {
   return std::abs(lean - other.lean) < kVehicleTuning.largest_lean && lean < kVehicleTuning.other_axis;

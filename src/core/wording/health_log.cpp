@@ -5,6 +5,11 @@
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+constexpr Stamp kLasting = std::chrono::seconds(30);  // of a reason: longer than any start takes
+
+}  // namespace
 
 void HealthLog::addReading(std::size_t sensor, Stamp stamp, Stamp recorded) {
   if (stamp <= Stamp::zero()) return;  // no stamp at all
@@ -27,12 +32,15 @@ void HealthLog::addReport(const MonitorReport& report) {
     return one.early_warning && one.level == HealthLevel::kOk;  // beside a raised level it is none
   };
   const bool begins_early = warns_early(health) && !warns_early(newest_.health);
+  const bool is_same = health.doubt == newest_.health.doubt && health.sensor.fault == newest_.health.sensor.fault;
+  if (!is_same) reason_since_ = elapsed();
   newest_ = report;
   if (begins_early) early_warnings_.push_back(momentOf(describe(health)));
-  if (health.level != before)
-    noteChange(describe(health));
-  else if (elapsed() >= due_)
-    write(momentOf(describe(health)));
+  if (health.level != before) return noteChange(describe(health));
+  if (elapsed() < due_) return;
+  write(momentOf(describe(health)));
+  if (health.level == HealthLevel::kStale && elapsed() - reason_since_ > kLasting)
+    events_.back().message = begun_with_ + "; later: " + describe(health);
 }
 
 void HealthLog::finishRecording() {
@@ -76,6 +84,8 @@ void HealthLog::advance(Stamp stamp) {
 
 void HealthLog::noteChange(const std::string& message) {
   events_.push_back(momentOf(message));
+  begun_with_ = message;
+  reason_since_ = elapsed();
   write(events_.back());
 }
 

@@ -41,8 +41,10 @@ std::string describe(EstimateDoubt doubt) {
 std::string describeShaking(const InputStatus& input) {
   constexpr double kLeastLevel = 0.3;  // [m/s^2]: more than a sensor's noise
   if (!(input.beyond_strut > kMajority && input.beyond_strut_level > kLeastLevel)) return "";
-  return formatted("the sprung IMU shakes above the strut's band (%.0f %% of its power, %.2g m/s^2): engine?",
-                   100.0 * input.beyond_strut, input.beyond_strut_level);
+  return formatted(
+      "the sprung IMU shakes above the strut's band (%.0f %% of its power, %.2g m/s^2): an engine, or the unsprung IMU "
+      "taken for it?",
+      100.0 * input.beyond_strut, input.beyond_strut_level);
 }
 
 std::string describe(const SensorReport& report) {
@@ -54,6 +56,14 @@ std::string describe(const SensorReport& report) {
     case SensorFault::kNone: return {};
     case SensorFault::kSprungStuck: return stuck("sprung", "unsprung");
     case SensorFault::kUnsprungStuck: return stuck("unsprung", "sprung");
+    case SensorFault::kOtherAxis: {
+      const auto onAnother = [](const char* imu, std::string_view up) {
+        return up.empty()
+                   ? ""
+                   : formatted("gravity of the %s IMU is on another axis: give %s_axis: %.2s", imu, imu, up.data());
+      };
+      return join({onAnother("sprung", report.up[0]), onAnother("unsprung", report.up[1])}, "; ");
+    }
     case SensorFault::kInG:
       return formatted("the %s IMU reads about 1 where the other reads gravity: it is in g, must be in m/s^2",
                        std::abs(sprung) < std::abs(unsprung) ? "sprung" : "unsprung");
@@ -207,7 +217,9 @@ std::string describeNoReading(double seconds, const std::vector<std::string>& si
 }
 
 std::string describe(const HealthReport& report) {
-  return join({describe(report.sensor), describeJudgement(report), describeShared(report),
+  const bool is_why = report.level == HealthLevel::kStale && report.sensor.fault != SensorFault::kNone;
+  return join({(is_why ? "cannot tell: " : "") + describe(report.sensor), is_why ? "" : describeJudgement(report),
+               describeShared(report),
                report.early_warning && report.level == HealthLevel::kOk ? "early warning: a change is certain" : "",
                report.outliers ? "outliers or saturation present (residuals have heavy tails)" : ""},
               "; ");

@@ -116,16 +116,17 @@ std::string describeReference(const Baseline& baseline, const std::string& file)
 std::string describeSuspicions(const MonitorReport& report, const StreamGrid* grid) {
   SensorReport sensor = report.health.sensor;
   const bool is_negative = report.la.damping_to_mass < -kProven * report.la.damping_to_mass_stddev;
-  if (sensor.fault == SensorFault::kNone || sensor.fault == SensorFault::kUnrelated)
-    sensor.fault = is_negative ? SensorFault::kNegativeDamping : SensorFault::kNone;
-  if (sensor.fault != SensorFault::kNone) return "; " + describe(sensor);
-  if (grid == nullptr) return "";
+  if (is_negative && (sensor.fault == SensorFault::kNone || sensor.fault == SensorFault::kUnrelated))
+    sensor.fault = SensorFault::kNegativeDamping;
+  const std::string found = sensor.fault == SensorFault::kNone ? "" : "; " + describe(sensor);
+  // That readings do not belong together may have a reason that these streams show.
+  if (grid == nullptr || (!found.empty() && sensor.fault != SensorFault::kUnrelated)) return found;
   const StreamGate &body = grid->gate(indexOf(Side::kSprung)), &wheel = grid->gate(indexOf(Side::kUnsprung));
   std::string text = describeStillness("sprung", body) + describeStillness("unsprung", wheel);
   text += describeSpike("sprung", body) + describeSpike("unsprung", wheel);
   if (body.deviation() > kMuchMore * wheel.deviation() && wheel.deviation() > 0.0)
     text += "; the sprung IMU shakes far more than the unsprung one: swapped, or not in m/s^2?";
-  return text;
+  return text.empty() ? found : text;
 }
 
 }  // namespace suspension_health_monitor

@@ -158,16 +158,18 @@ static std::string enoughToHoldOut(const StrutModel& strut) {
   return describeEnough((kEnoughPeriods + 1.0) * 2.0 * M_PI / std::sqrt(strut.stiffness_to_mass));
 }
 
+static constexpr const char* kMaybeSwapped = ": are the IMUs swapped, is an axis upside down, or did nothing move?";
+
 std::string reasonOf(Shortcoming shortcoming, const StrutModel& start) {
   const std::string numbers =
       formatted("damping/mass %.4g, stiffness/mass %.4g", start.damping_to_mass, start.stiffness_to_mass);
   switch (shortcoming) {
     case Shortcoming::kNoDampedSpring:
-      return "show no damped spring" + (start.stiffness_to_mass != 0.0 ? " (" + numbers + ")" : "");
+      return "show no damped spring" + (start.stiffness_to_mass != 0.0 ? " (" + numbers + ")" : "") + kMaybeSwapped;
     case Shortcoming::kTooFast: return "are sampled too slowly for so stiff a strut (" + numbers + ")";
     case Shortcoming::kTooShort:
       return "are too short or too calm: nothing can be held out to judge a model by" + enoughToHoldOut(start);
-    case Shortcoming::kNoStableFit: return "have no stable damped spring that fits them";
+    case Shortcoming::kNoStableFit: return std::string("have no stable damped spring that fits them") + kMaybeSwapped;
     case Shortcoming::kModelUntestable: return "do not tell a fault of the body's IMU that the model has";
     case Shortcoming::kNone: break;
   }

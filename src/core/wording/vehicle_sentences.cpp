@@ -136,8 +136,8 @@ std::string describe(const BodyLevel& level) {
 
 std::string describe(const MountClaim::Finding& mount, const std::string& name, const char* setting) {
   if (mount.isOnAnotherAxis())
-    return formatted("gravity of %s is on another axis: give %s: %s%c", name.c_str(), setting,
-                     mount.is_negative ? "-" : "", 'x' + mount.axis);
+    return formatted("gravity of %s is on another axis: give %s: %s", name.c_str(), setting,
+                     std::string(mount.name()).c_str());
   std::vector<std::string> faults;
   if (mount.isLeaning())
     faults.push_back(
@@ -166,6 +166,7 @@ std::string describeFault(const ImuSurvey& imu, int axis, double moved) {
       wild > 0)
     return formatted("%llu readings are no acceleration of a vehicle: look for a bad connection or driver",
                      static_cast<unsigned long long>(wild));
+  if (!imu.tellsGravity()) return "too short to tell which axis is up: record half a minute of driving";
   if (const auto gravity = imu.gravity())
     if (const std::string fault = describeGravity(*gravity); !fault.empty()) return fault;
   if (moved < imu.noise(axis))

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
 
@@ -16,10 +17,9 @@ namespace suspension_health_monitor {
 /// (1967), 70-73; G. C. Carter, Proc. IEEE 75 (1987), 236-255 (coherence).
 /// @param segments  of one period.
 /// @param strut  b1 and b0 above 0: how noise on w'' comes through.
-/// @param noise_floor  rmse that the noise of both sensors leaves of a free run [m/s^2].
 /// @return nothing if nothing moves.
 std::optional<ResidualViews> viewResidual(const std::vector<ComparedSegment>& segments, const LinearStrut& strut,
-                                          double noise_floor);
+                                          const NoiseFloor& noise_floor);
 
 /// Ranks the regions where the model is significantly worse than noise, the worst first, at most two of a view.
 /// Significant: a mean missing force beyond chance (probability 0.001 over all bins of the view) and more than a

@@ -16,8 +16,8 @@ namespace suspension_health_monitor {
 /// are interpolated, white noise is not. Those that change quickly (friction turns within a sample) are taken out: a
 /// free-form force over the travel and rate of the model's free run is fitted to what the interpolation leaves. From
 /// the median, so that a blow into an end stop is no noise, and with such blows kept out of the fits. The wheel's
-/// sensor is taken to be as noisy; its noise comes through the model. Where the records have what the noise looks like,
-/// that tells it (floorOfKnownNoise()).
+/// sensor is taken to be as noisy (if not: floorOfResidual()); its noise comes through the model. Where the records
+/// have what the noise looks like, that tells it (floorOfKnownNoise()).
 /// @return 0 if there are too few samples to tell; not below accuracyOfFreeRuns().
 double estimateNoiseFloor(const Records& records, const StrutModel& model);
 
@@ -47,11 +47,18 @@ inline constexpr double kStructured = 0.2;
 
 inline bool isStructured(double rmse, double noise_floor) { return structuredShare(rmse, noise_floor) >= kStructured; }
 
-/// The noise floor of what a model leaves: all of it if that is noise which a sensor has filtered, white in a band of
-/// its own (isStructured()); else as it is given, but not above the rmse.
-/// @param residuals  of a fit of the model.
-double floorOfResidual(double rmse, double noise_floor, const Residuals& residuals, double period,
-                       const StrutModel& model);
+/// What noise leaves of a free run.
+struct NoiseFloor {
+  double rms = 0.0;            ///< [m/s^2]
+  double wheel_to_body = 1.0;  ///< variance of the noise of the wheel's sensor over that of the body's
+};
+
+/// The noise floor of what a model leaves: all of it if that is noise of a wheel's sensor that is louder than the
+/// body's, or noise which a sensor has filtered, white in a band of its own (isStructured()); else as it is given, but
+/// not above the rmse.
+/// @param residuals  of a fit of the model.  @param wheel  w'', at the same samples.
+NoiseFloor floorOfResidual(double rmse, double noise_floor, const Residuals& residuals, const Residuals& wheel,
+                           double period, const StrutModel& model);
 
 /// What a wheel that shakes beyond half the sampling rate may leave of a free run [m/s^2]: without a filter before the
 /// sampling such motion is folded back, and no model can follow it. It is taken to be white, with the density that w''

@@ -9,7 +9,8 @@
 namespace suspension_health_monitor {
 
 /// Tells faults of a sensor from those of the strut, by what a strut cannot do:
-/// - a vehicle does not climb for good: where one mean reading is gravity (REP 145: +9.81 at rest on the up axis) and
+/// - a vehicle does not climb for good: where gravity is on another axis than the settings say, that axis is wrong;
+/// where one mean reading is gravity (REP 145: +9.81 at rest on the up axis) and
 ///   the other is 1, that one is in g. MountClaim judges the mean of each IMU alone;
 /// - a strut passes slow motion as it is: the block estimate contains the ratio of the gains of both sensors;
 /// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
@@ -28,6 +29,9 @@ class SensorCheck {
   SensorCheck(double memory, int horizon_samples);
 
   void add(const CornerSample& sample);
+
+  /// @param up  as SensorReport::up.
+  void setUp(Side side, std::string_view up) { report_.up[indexOf(side)] = up; }
 
   /// @param estimate  of the blocks: a valid one is that of a strut.
   /// @param la  at the newest sample: its rows follow a fault at once, and single wrong readings do not move it.

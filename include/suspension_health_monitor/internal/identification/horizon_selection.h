@@ -7,9 +7,10 @@ namespace suspension_health_monitor {
 /// @param damping_to_mass  b1 > 0 [1/s].  @param stiffness_to_mass  b0 > 0 [1/s^2].  @param frequency_hz  >= 0.
 double transmissibility(double damping_to_mass, double stiffness_to_mass, double frequency_hz);
 
-/// White noise on w'' through G beside equal noise on z'': 1 + T (b1^2 + b0) / (2 b1).
-/// @param period  T [s].  @return variance of both together over that of the noise on z''.
-double noiseOfBothSensors(double damping_to_mass, double stiffness_to_mass, double period);
+/// White noise on w'' through G beside noise on z'': 1 + r T (b1^2 + b0) / (2 b1).
+/// @param period  T [s].  @param wheel_to_body  r, the variance of the noise on w'' over that on z''.  @return variance
+/// of both together over that of the noise on z''.
+double noiseOfBothSensors(double damping_to_mass, double stiffness_to_mass, double period, double wheel_to_body = 1.0);
 
 /// |I_0^2| / h^2 = sinc^2(omega h / 2) of the strut's integral filter (8), 1 at frequency 0, 0 at 1/h.
 /// @param horizon  h > 0 [s].

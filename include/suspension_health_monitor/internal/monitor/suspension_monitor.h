@@ -56,6 +56,9 @@ class SuspensionMonitor {
   /// Takes in the temperature of the strut's damper [deg C], which is used until it is older than health/oldest_data.
   void addTemperature(Stamp stamp, double celsius);
 
+  /// What gravity says points up on an IMU, as SensorReport::up.
+  void setUp(Side side, std::string_view up) { sensors_.setUp(side, up); }
+
   /// As HealthAssessment::setOthers(), dampingChange().
   void setOthers(const std::optional<Measured>& others) { health_.setOthers(others); }
   const std::optional<Measured>& dampingChange() const { return health_.dampingChange(); }

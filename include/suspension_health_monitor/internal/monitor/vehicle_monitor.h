@@ -59,6 +59,9 @@ class VehicleMonitor {
   /// As SuspensionMonitor; it is lost while there is no monitor.
   void addTemperature(std::size_t strut, Stamp stamp, double celsius);
 
+  /// @param imu  of a strut; of others nothing is done.  @param up  as SensorReport::up.
+  void setUp(const VehicleStreams::Sensor& imu, std::string_view up);
+
   /// Tests the vehicle file (VehicleClaims) and fits a rigid body to the rows (BodyFit), so that absolute values carry
   /// the model's error. Takes 10 ms for four struts: not for the sample path.
   void fitBody();

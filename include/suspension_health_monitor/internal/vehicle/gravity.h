@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
@@ -54,12 +55,16 @@ class MountClaim {
     bool is_negative = false;  ///< that axis points down
     bool isLeaning() const;    ///< by more than a road, a load or a careful hand makes
     bool isOnAnotherAxis() const;
+    std::string_view name() const;             ///< of the axis that points up: "x" to "-z"
     bool leansAs(const Finding& other) const;  ///< the two of a strut that is inclined
     bool isWrongSize() const;                  ///< by more than kLargestOffset
   };
 
   /// @param acceleration  in the IMU's axes [m/s^2].
   void add(Stamp stamp, const Eigen::Vector3d& acceleration);
+
+  /// @return false as long as too little was read to tell anything.
+  bool isKnown() const;
 
   /// @param up  in the IMU's axes, of length 1.
   /// @return nothing as long as too little was read, or if the readings are without gravity.

@@ -41,6 +41,9 @@ class ImuSurvey {
   double largest(int axis) const { return largest_[axis]; }          ///< magnitude [m/s^2]
   bool isStill() const;                                              ///< all axes read the same again and again
 
+  /// @return false: the drive is too short to tell whether there is gravity in the readings.
+  bool tellsGravity() const { return gravity_.isKnown(); }
+
   /// @return of the axis that gravity is nearest to; nothing: it is not in the readings, or they are too few.
   std::optional<MountClaim::Finding> gravity() const;
 

@@ -96,7 +96,8 @@ class HealthLog {
   /// The recording ends; the next reading begins another.
   void finishRecording();
 
-  /// @return changes of level in the order of time; the first is the kStale that everything begins with.
+  /// @return changes of level in the order of time; the first is the kStale that everything begins with. Of kStale the
+  /// message is that of its beginning, and of the last reason that lasted.
   const std::vector<HealthMoment>& events() const { return events_; }
 
   /// @return the moments at which an early warning began.
@@ -134,7 +135,9 @@ class HealthLog {
   bool in_recording_ = false;
   Instant now_, newest_reading_;
   LevelTimes times_;
-  Stamp due_{};  // elapsed() at the next second
+  Stamp due_{};             // elapsed() at the next second
+  Stamp reason_since_{};    // elapsed() since the newest reason for the level
+  std::string begun_with_;  // message of the newest event, when it began
   MonitorReport newest_;
   std::vector<HealthMoment> events_, early_warnings_;
 };
