@@ -182,6 +182,7 @@ void watchBags(const po::variables_map& values) {
   if (csv) csv->commit();
   if (page)
     page->write(healthTemplate(), {{"struts", struts},
+                                   {"corners", whole.value("corners", json())},
                                    {"data", shortened(dataJson(options))},
                                    {"origin", originOf(values, namesOf(options.bags.topics))}});
   recorded.printInput();

@@ -73,6 +73,7 @@ RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
     take.take_back = [&] { dropNewest(drive, kSignalTuning.outcomes); };
     recorded.bags.push_back(readSamples(options.bags.of(path, gaps), options.settings.common, layout, take));
     const VehicleGrid& grid = recorded.bags.back().grid;
+    dropBefore(grid.streams().settled(), drive);
     grid.describe(drive);
     drive.places = grid.vehicle().places();
   }

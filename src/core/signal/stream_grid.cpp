@@ -162,6 +162,12 @@ double StreamGrid::longestPeriod() const {
   return longest;
 }
 
+Stamp StreamGrid::settled() const {
+  Stamp latest = Stamp::min();
+  for (const GridStream& each : streams_) latest = std::max(latest, each.gate.clock().settled());
+  return latest;
+}
+
 RejectCounts StreamGrid::rejected(std::size_t stream) const {
   RejectCounts counts = streams_[stream].gate.rejected();
   counts += streams_[stream].rejected;

@@ -63,6 +63,22 @@ void dropNewest(VehicleDrive& drive, std::size_t count) {
   for (KnownForceRecord& force : drive.forces) dropNewest(force.values, count);
 }
 
+void dropBefore(Stamp begin, VehicleDrive& drive) {
+  const std::vector<CornerSample>& samples = drive.struts.front().samples;
+  const auto first =
+      std::find_if(samples.begin(), samples.end(), [&](const CornerSample& sample) { return sample.stamp >= begin; });
+  const auto count = first - samples.begin();
+  if (static_cast<std::size_t>(count) > samples.size() / 4) return;
+  const auto drop = [&](auto& series) {
+    series.erase(series.begin(), series.begin() + std::min<std::ptrdiff_t>(count, series.size()));
+  };
+  for (Drive& strut : drive.struts) {
+    drop(strut.samples);
+    drop(strut.low_pass.unfiltered);
+  }
+  for (KnownForceRecord& force : drive.forces) drop(force.values);
+}
+
 double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                 const std::optional<double>& given) {
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");

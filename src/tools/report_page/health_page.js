@@ -5,7 +5,7 @@ function buildHealthPage() {
   const {struts} = findings;
   const several = struts.length > 1;
   showPage(headlineOf(struts), [
-    dataBox(findings), several ? [overviewSection(struts), levelsSection(struts)] : [],
+    dataBox(findings), several ? [overviewSection(struts, findings.corners), levelsSection(struts)] : [],
     struts.map(
         strut =>
             [healthVerdictSection(strut, several), courseSection(strut, several), eventsSection(strut, several),

@@ -27,14 +27,16 @@ function overviewRow({strut, events, end, seconds, duration}) {
       element('td', {}, element('b', {class: 'level', 'data-level': end.level}, end.level)), LEVELS.map(share));
 }
 
-function overviewSection(struts) {
+function overviewSection(struts, corners) {
   const worst = worstLevel(worstStrut(struts).events);
   return element(
       'section', {id: 'verdict', 'data-level': worst}, element('p', {class: 'source'}, struts[0].source),
       element('h1', {}, element('span', {class: 'pill'}, worst), element('br'), headlineOf(struts)),
       wideTable(
           [head('strut'), head('worst'), head('at the end'), LEVELS.map(level => head(level, 'number minor'))],
-          struts.map(overviewRow)));
+          struts.map(overviewRow)),
+      corners ? element('p', {class: 'answer'}, element('b', {}, 'Over the drive: '), `${typeset(corners.message)}.`) :
+                null);
 }
 
 /** The levels of all struts, one band below the other, with one window in time. */

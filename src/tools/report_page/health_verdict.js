@@ -32,9 +32,11 @@ function span(seconds) {
 
 const worstLevel = events => ['ERROR', 'WARN', 'OK', 'STALE'].find(level => events.some(each => each.level === level));
 
-function headline({events}) {
+// What is still so at the end is told as it is then.
+function headline({events, end}) {
   const level = worstLevel(events);
-  const {elapsed, message} = events.find(each => each.level === level);
+  const first = events.find(each => each.level === level);
+  const {elapsed} = first, {message} = end.level === level ? end : first;
   if (level === 'OK') return 'Neither a warning nor an error';
   if (level === 'STALE') return 'The monitor could not tell';
   return typeset(`${capitalised(MEANINGS[level])} after ${span(elapsed)}: ${message.split(';')[0]}`);

@@ -60,6 +60,10 @@ class StreamClock {
   /// The next reading begins another series: its stamp may be any.
   void interrupt();
 
+  /// @return until when stamps were taken as they are, though the readings showed later that they had been taken
+  /// regularly; the least stamp of all if they do not.
+  Stamp settled() const { return sampling_.isRegular() ? settled_ : Stamp::min(); }
+
   double period() const { return period_; }                     ///< [s]; 0 before the second reading
   double jitter() const { return std::sqrt(jitter_.mean()); }   ///< standard deviation of the spacing [s]
   std::uint64_t lost() const { return lost_ > 0 ? lost_ : 0; }  ///< readings that are missing, pauses left out
@@ -74,6 +78,7 @@ class StreamClock {
   int periodsSinceLast(double stamp);
 
   std::optional<Stamp> origin_, last_;  // of the series; the newest time returned
+  Stamp settled_ = Stamp::min();        // newest stamp before it told how it was taken
   std::array<double, kFirst> first_{};  // stamps [s since the origin]
   std::size_t num_first_ = 0;
   double time_ = 0.0, period_ = 0.0;        // regular time of the newest reading [s since the origin], period [s]

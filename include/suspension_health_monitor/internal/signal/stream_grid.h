@@ -53,6 +53,7 @@ class StreamGrid {
   /// sample_period is too short.
   double longestPeriod() const;
   double period() const { return toSeconds(period_); }  ///< T [s]
+  Stamp settled() const;                                ///< the latest StreamClock::settled()
 
   const StreamGate& gate(std::size_t stream) const { return streams_[stream].gate; }
 

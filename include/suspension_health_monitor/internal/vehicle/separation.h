@@ -50,6 +50,9 @@ void append(const VehicleSample& sample, VehicleDrive& drive);
 /// Takes the newest samples of a drive back.
 void dropNewest(VehicleDrive& drive, std::size_t count);
 
+/// Takes the samples before a stamp off a drive, or none if these are more than a quarter of it.
+void dropBefore(Stamp begin, VehicleDrive& drive);
+
 template <class T>
 void dropNewest(std::vector<T>& series, std::size_t count) {
   series.erase(series.end() - static_cast<std::ptrdiff_t>(std::min(count, series.size())), series.end());
