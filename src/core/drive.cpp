@@ -8,11 +8,8 @@
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kShortestPeriod = 1e-5, kLongestPeriod = 10.0;  // [s], as of sample_period
-
-}  // namespace
 
 void LowPass::validate(std::size_t num_samples) const {
   if (!taps.empty() && taps.size() % 2 == 0)

@@ -87,8 +87,7 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
                                       const std::function<void(std::size_t strut, const MonitorReport&)>& report) {
   const std::vector<IdentifyOptions> by_strut = optionsByStrut(options, names.size());
   const double period = periodOf(drives, names, samplePeriodOf(options));
-  std::vector<MonitorSettings> settings;
-  for (const IdentifyOptions& strut : by_strut) settings.push_back(settingsOf(strut, period));
+  const auto settings = mapped(by_strut, [&](const IdentifyOptions& strut) { return settingsOf(strut, period); });
   VehicleMonitor monitor(settings, report, static_cast<int>(drives.front().forces.size()));
   for (const VehicleDrive& drive : drives)
     for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) {

@@ -7,11 +7,8 @@
 #include "../tools/long_work.h"
 
 namespace suspension_health_monitor {
-namespace {
 
-thread_local ToolsWork* current = nullptr;
-
-}  // namespace
+static thread_local ToolsWork* current = nullptr;
 
 ToolsWork::ToolsWork(LongWork& work, std::size_t bags) : work_(work), bags_(bags), before_(current) { current = this; }
 
@@ -21,8 +18,6 @@ void ToolsWork::tellReading(std::size_t bags) {
   bags_ = bags;
   begun_ = 0;
 }
-
-void ToolsWork::beginBar() { ++begun_; }
 
 void ToolsWork::update(double share) {
   if (bags_ == 0) return step();

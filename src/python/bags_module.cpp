@@ -22,20 +22,18 @@
 namespace suspension_health_monitor {
 namespace {
 
-namespace po = boost::program_options;
-
 /// Adds what the command line does, as defWork(); its errors are ValueError.
 template <class... Given, class Work, class... Names>
-void defCommand(pybind11::module& module, const char* name, const Work& work, const Names&... names) {
+void defCommand(py::module& module, const char* name, const Work& work, const Names&... names) {
   const auto command = [work](auto&... given) {
     try {
       return work(given...);
-    } catch (const pybind11::error_already_set&) {
+    } catch (const py::error_already_set&) {
       throw;
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      throw pybind11::value_error(error.what());
+      throw py::value_error(error.what());
     }
   };
   defWork<Given...>(module, name, command, names...);
@@ -138,12 +136,12 @@ std::string writeSimulation(const std::string& path, const OptionMap& keywords, 
   return path;
 }
 
-pybind11::dict readSettings(const std::string& path) {
-  pybind11::dict settings;
+py::dict readSettings(const std::string& path) {
+  py::dict settings;
   for (const auto& [name, value] : readYaml(path)) {
     if (const auto* list = std::get_if<UnusableList>(&value))
       throw std::invalid_argument(name + " = " + list->text + ", must be a plain value");
-    settings[pybind11::str(name)] = pybind11::str(std::get<std::string>(value));  // a YAML file has texts only
+    settings[py::str(name)] = py::str(std::get<std::string>(value));  // a YAML file has texts only
   }
   return settings;
 }
@@ -153,9 +151,9 @@ pybind11::dict readSettings(const std::string& path) {
 
 PYBIND11_MODULE(_bags, module) {
   using namespace suspension_health_monitor;
-  using pybind11::arg;
+  using py::arg;
   module.doc() = "Compiled part of suspension_health_monitor: bags and files.";
-  pybind11::module::import("suspension_health_monitor._core");  // which has the classes of the results
+  py::module::import("suspension_health_monitor._core");  // which has the classes of the results
   defCommand<Arguments>(module, "identify", &identifyBags, "arguments");
   defCommand<Arguments, std::optional<Baseline>, std::string>(module, "health", &watchBags, "arguments", "baseline",
                                                               "file");

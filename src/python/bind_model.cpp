@@ -3,9 +3,6 @@
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
 namespace suspension_health_monitor {
-
-namespace py = pybind11;
-
 namespace {
 
 /// Adds each value by the name of its shape or coefficient.

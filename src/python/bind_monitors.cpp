@@ -9,9 +9,6 @@
 #include "suspension_health_monitor/strut_monitor.h"
 
 namespace suspension_health_monitor {
-
-namespace py = pybind11;
-
 namespace {
 
 /// A monitor that calls back into Python and that one thread at a time may use. A thread that waits for it has released
@@ -26,7 +23,7 @@ class Locked {
   /// @param question  a member of the monitor, or a function of it that returns at once.
   template <class Question>
   auto ask(const Question& question) const {
-    const pybind11::gil_scoped_release released;
+    const py::gil_scoped_release released;
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     return std::invoke(question, monitor_);
   }
@@ -35,7 +32,7 @@ class Locked {
   /// @throws std::invalid_argument  from within a callback of it.
   template <class Work>
   void push(const Work& work) {
-    const pybind11::gil_scoped_release released;
+    const py::gil_scoped_release released;
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     if (is_pushing_) throw std::invalid_argument("push() from within on_report, must be from outside");
     const std::unique_ptr<bool, void (*)(bool*)> busy(&is_pushing_, [](bool* flag) { *flag = false; });
@@ -153,10 +150,7 @@ void bindMonitors(py::module& module) {
       .def("set_model",
            [](LockedMonitor& self, const std::optional<StrutModel>& model) {
              self.push([&](StrutMonitor& monitor) {
-               if (model)
-                 monitor.setEffects(model->effects, model->linearPart());
-               else
-                 monitor.setEffects({});
+               model ? monitor.setEffects(model->effects, model->linearPart()) : monitor.setEffects({});
              });
            })
       .def("set_baseline",

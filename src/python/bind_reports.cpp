@@ -8,9 +8,6 @@
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
-
-namespace py = pybind11;
-
 namespace {
 
 /// What pickle keeps of a baseline; its friction and its temperature are arrays of numbers.

@@ -17,8 +17,6 @@ SHM_FIELDS(SearchedStrut, verdict, summary, remainder, selected, indistinguishab
            base_fit_percent, noise_floor, structured_share, surface_share, explained_share, ranking, extended,
            extended_fit_percent, final_fit, change, not_tried)
 
-namespace py = pybind11;
-
 namespace {
 
 /// Bins: of each field an array, one entry per bin.

@@ -3,14 +3,10 @@
 
 #include "../ros/simulator_options.h"  // of its folder a file without ROS
 #include "bindings.h"
-#include "long_work.h"
 #include "options.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
 namespace suspension_health_monitor {
-
-namespace py = pybind11;
-
 namespace {
 
 struct Simulation {
@@ -59,17 +55,15 @@ py::array_t<double> acrossOf(const Simulation& simulation) {
 
 }  // namespace
 
+SHM_FIELDS(DriveTruth, damping_to_mass, stiffness_to_mass, travel, travel_rate, road_height)
 SHM_FIELDS(Simulation, body, stamps_body, wheel, stamps_wheel, road, stamps_road, time)
 
 void bindSimulation(py::module& module) {
-  ResultClass<Simulation>(module, "Simulation",
-                          "A simulated drive: readings of the sensors, and the truth that none tells.")
-      .add("across", &acrossOf)
-      .addColumn("damping_to_mass", &Simulation::truth, &DriveTruth::damping_to_mass)
-      .addColumn("stiffness_to_mass", &Simulation::truth, &DriveTruth::stiffness_to_mass)
-      .addColumn("travel", &Simulation::truth, &DriveTruth::travel)
-      .addColumn("travel_rate", &Simulation::truth, &DriveTruth::travel_rate)
-      .addColumn("road_height", &Simulation::truth, &DriveTruth::road_height);
+  ResultClass<Simulation> simulation(module, "Simulation",
+                                     "A simulated drive: readings of the sensors, and the truth that none tells.");
+  simulation.add("across", &acrossOf);
+  Fields<DriveTruth>::forEach(
+      [&](const char* name, auto member) { simulation.addColumn(name, &Simulation::truth, member); });
   module.def("simulator_keywords", &keywordsOf<SimulatorOptions>, py::arg("keywords"), py::arg("arguments"));
   defWork<OptionMap, EffectLibrary>(module, "simulate", &simulateArrays, "keywords", "library");
 }

@@ -103,7 +103,7 @@ SearchedStrut diagnoseArrays(const Recordings& recordings, const OptionMap& keyw
 
 }  // namespace
 
-void bindWork(pybind11::module& module) {
+void bindWork(py::module& module) {
   defWork<Recordings, OptionMap, std::optional<StrutModel>>(module, "identify", &identifyArrays, "recordings",
                                                             "keywords", "model");
   defWork<Recordings, OptionMap, std::optional<Baseline>, std::string>(module, "health", &watchArrays, "recordings",

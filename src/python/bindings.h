@@ -1,15 +1,14 @@
 #pragma once
 
 #include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <functional>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "../tools/result_fields.h"  // of its folder a file without ROS
+#include "long_work.h"
 #include "suspension_health_monitor/drive.h"
 #include "suspension_health_monitor/residual_views.h"
 
@@ -20,12 +19,12 @@ PYBIND11_MAKE_OPAQUE(std::vector<suspension_health_monitor::TimeBin>)
 namespace suspension_health_monitor {
 
 // Each adds its classes and functions to the compiled part of the Python module.
-void bindModel(pybind11::module& module);
-void bindReports(pybind11::module& module);
-void bindResults(pybind11::module& module);
-void bindWork(pybind11::module& module);
-void bindSimulation(pybind11::module& module);
-void bindMonitors(pybind11::module& module);
+void bindModel(py::module& module);
+void bindReports(py::module& module);
+void bindResults(py::module& module);
+void bindWork(py::module& module);
+void bindSimulation(py::module& module);
+void bindMonitors(py::module& module);
 
 /// @param what  a member, a const member function, or any function of the owner.
 /// @return its value: of a stamp the seconds, of a level or verdict the name.
@@ -44,7 +43,7 @@ decltype(auto) valueOf(const What& what, const Owner& owner) {
 template <class Items, class What>
 auto arrayOf(const Items& items, const What& what) {
   using Number = std::decay_t<decltype(valueOf(what, items[0]))>;
-  pybind11::array_t<Number> array(static_cast<Py_ssize_t>(items.size()));
+  py::array_t<Number> array(static_cast<Py_ssize_t>(items.size()));
   Number* next = array.mutable_data();
   for (const auto& item : items) *next++ = valueOf(what, item);
   return array;
@@ -53,10 +52,9 @@ auto arrayOf(const Items& items, const What& what) {
 /// A class of results in Python, with the fields of result_fields.h and the attributes that are added, given as
 /// valueOf() takes them. Attributes cannot be changed. Their texts are in _core.pyi.
 template <class Result>
-class ResultClass : public pybind11::class_<Result> {
+class ResultClass : public py::class_<Result> {
  public:
-  ResultClass(pybind11::module& module, const char* name, const char* text)
-      : pybind11::class_<Result>(module, name, text) {
+  ResultClass(py::module& module, const char* name, const char* text) : py::class_<Result>(module, name, text) {
     if constexpr (Fields<Result>::value)
       Fields<Result>::forEach([this](const char* field, auto member) { this->addField(field, member); });
   }

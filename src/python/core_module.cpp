@@ -5,7 +5,6 @@
 
 PYBIND11_MODULE(_core, module) {
   using namespace suspension_health_monitor;
-  namespace py = pybind11;
   module.doc() = "Compiled part of suspension_health_monitor: arrays in, results out.";
   py::class_<Recording>(module, "Readings", "Arrays of one drive, checked and ready to be read.")
       .def(py::init<std::vector<ReadingStream>, std::optional<py::array_t<double>>>(), py::arg("streams"),

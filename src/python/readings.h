@@ -17,7 +17,7 @@ namespace suspension_health_monitor {
 
 /// One sensor of a recording, arrays of equal length, which the wrapper in Python has checked: rising stamps [ns] and
 /// what it reads along the strut [m/s^2].
-using ReadingStream = std::pair<pybind11::array_t<std::int64_t>, pybind11::array_t<double>>;
+using ReadingStream = std::pair<py::array_t<std::int64_t>, py::array_t<double>>;
 
 /// Arrays of one drive. To be made and destroyed with the interpreter's lock; read without.
 class Recording {
@@ -25,7 +25,7 @@ class Recording {
   /// @param arrays  stamps and values of the body's, the wheel carrier's and, if there is one, the road's sensor, by
   /// Side.
   /// @param across  a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, in the strut's frame, at the body's stamps.
-  Recording(std::vector<ReadingStream> arrays, std::optional<pybind11::array_t<double>> across)
+  Recording(std::vector<ReadingStream> arrays, std::optional<py::array_t<double>> across)
       : streams_(std::move(arrays)), across_(std::move(across)) {}
 
   /// @return by Side.
@@ -59,7 +59,7 @@ class Recording {
   };
 
   std::vector<ReadingStream> streams_;
-  std::optional<pybind11::array_t<double>> across_;
+  std::optional<py::array_t<double>> across_;
 };
 
 using Recordings = std::vector<Recording>;

@@ -6,13 +6,10 @@
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kShownLag = 0.0005;    // [s] half of the last digit that is shown
 constexpr double kTopicsEvery = 0.5;    // [s]
 constexpr std::size_t kMostOthers = 6;  // topics that a person reads through
-
-}  // namespace
 
 std::map<std::string, std::string> publishedTopics() {
   ros::master::V_TopicInfo topics;
@@ -46,15 +43,10 @@ void Arrivals::describeLag(const std::string& name, const std::optional<double>&
   if (max_lag && lag > *max_lag) status.mergeSummaryf(Status::WARN, "%s IMU is %.3g s late", name.c_str(), lag);
 }
 
-bool Arrivals::isSilentByWall() const { return last_ && (ros::WallTime::now() - last_->by_wall).toSec() > timeout_; }
-
 // A sensor counts as silent when it is so by the clock that stamps the data and by the wall clock. The first alone
 // stands still while a simulation is paused; the second alone would call a replay silent that is slower than life.
 void Arrivals::describeSilence(PublishedTopics& published, Status& status) const {
-  if (!last_) {
-    status.mergeSummary(Status::ERROR, "no message yet on " + topic_ + whatElseThereIs(published));
-    return;
-  }
+  if (!last_) return status.mergeSummary(Status::ERROR, "no message yet on " + topic_ + whatElseThereIs(published));
   const double by_wall = (ros::WallTime::now() - last_->by_wall).toSec();
   const double by_clock = ros::Time::now().toSec() - last_->by_clock.toSec();
   const bool clock_went_back = by_clock < 0.0;

@@ -40,7 +40,7 @@ class Arrivals {
   void describeLag(const std::string& name, const std::optional<double>& max_lag, Status& status) const;
 
   /// @return true if messages have come and no longer do.
-  bool isSilentByWall() const;
+  bool isSilentByWall() const { return last_ && (ros::WallTime::now() - last_->by_wall).toSec() > timeout_; }
 
   void describeSilence(PublishedTopics& published, Status& status) const;
 

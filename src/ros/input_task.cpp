@@ -95,7 +95,8 @@ void InputTask::describe(Status& status) {
   if (const MessagePipeline* pipeline = host_.pipeline()) {
     describeSeries(*pipeline, status);
     describeSensors(all_sensors_, *pipeline, reported_of_vehicle_, status);
-    describeMounts(*pipeline, status);
+    const auto names = mapped(sensors_, [](const Sensor& sensor) { return "the " + sensor.name + " IMU"; });
+    for (const std::string& fault : pipeline->mountFaults(names)) warn(fault, status);
   }
   describeSilence(all_sensors_, status);
   describeClock(status);
@@ -170,12 +171,6 @@ void InputTask::describeSensors(const Sensors& sensors, const MessagePipeline& p
     if (const std::string& frame = pipeline.missingTransform(sensor); !frame.empty())
       status.mergeSummary(Status::ERROR,
                           "no static transform from " + frame + " to target_frame " + target_frame_ + " (/tf_static)");
-}
-
-void InputTask::describeMounts(const MessagePipeline& pipeline, Status& status) const {
-  std::vector<std::string> names;
-  for (const Sensor& sensor : sensors_) names.push_back("the " + sensor.name + " IMU");
-  for (const std::string& fault : pipeline.mountFaults(names)) warn(fault, status);
 }
 
 void InputTask::describeSilence(const Sensors& sensors, Status& status) {

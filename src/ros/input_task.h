@@ -57,7 +57,6 @@ class InputTask {
   void summarize(const Sensors& sensors, Status& status) const;
   void describeSeries(const MessagePipeline& pipeline, Status& status);
   void describeSensors(const Sensors& sensors, const MessagePipeline& pipeline, Rejected& before, Status& status);
-  void describeMounts(const MessagePipeline& pipeline, Status& status) const;
   void describeSilence(const Sensors& sensors, Status& status);
   void describeClock(Status& status);
 

@@ -43,11 +43,6 @@ LiveCurves::LiveCurves(MonitorHost& host, const std::vector<ros::NodeHandle>& st
   spinner_.start();
 }
 
-LiveCurves::~LiveCurves() {
-  timer_.stop();  // waits for a fit that runs
-  spinner_.stop();
-}
-
 void LiveCurves::updateIfDue() {
   if (std::none_of(topics_.begin(), topics_.end(), [](const Topics& strut) { return strut.isHeard(); })) return;
   beNice();

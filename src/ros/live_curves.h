@@ -21,11 +21,6 @@ class LiveCurves {
   /// @param diagnose_window  [s] of samples that are kept.
   LiveCurves(MonitorHost& host, const std::vector<ros::NodeHandle>& struts, double diagnose_window);
 
-  /// Waits for a fit that runs.
-  ~LiveCurves();
-  LiveCurves(const LiveCurves&) = delete;
-  LiveCurves& operator=(const LiveCurves&) = delete;
-
  private:
   /// A time of drive between two fits.
   static constexpr Stamp kEvery = std::chrono::seconds(60);
@@ -50,8 +45,8 @@ class LiveCurves {
   std::vector<Topics> topics_;  // by strut
   Stamp last_ = -kEvery;        // newest sample of the last fit; the first one is due at once
   ros::CallbackQueue queue_;
-  ros::WallTimer timer_;
   ros::AsyncSpinner spinner_;
+  ros::WallTimer timer_;  // last, and so gone first: its end waits for a fit that runs
 };
 
 }  // namespace suspension_health_monitor

@@ -32,9 +32,7 @@ const ActiveEffect* find(const std::vector<ActiveEffect>& effects, const std::st
 }
 
 std::vector<std::string> effectNames(const std::vector<ActiveEffect>& effects) {
-  std::vector<std::string> names;
-  for (const ActiveEffect& active : effects) names.push_back(active.effect.name);
-  return names;
+  return mapped(effects, [](const ActiveEffect& active) { return active.effect.name; });
 }
 
 /// As the final fit has the effect, else as it was fitted alone.

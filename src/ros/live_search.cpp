@@ -109,13 +109,6 @@ DiagnoseService<Service>::DiagnoseService(const ros::NodeHandle& private_node, M
 }
 
 template <class Service>
-DiagnoseService<Service>::~DiagnoseService() {
-  stopping_ = true;
-  server_.shutdown();  // waits for calls that run, and they see stopping_
-  spinner_.stop();
-}
-
-template <class Service>
 bool DiagnoseService<Service>::onDiagnose(Request& request, Response& response) {
   const std::unique_lock<std::mutex> only_one(searching_, std::try_to_lock);
   takeFiguresOff(response);

@@ -29,9 +29,7 @@ class DiagnoseService {
   DiagnoseService(const ros::NodeHandle& private_node, MonitorHost& host, std::size_t strut = 0);
 
   /// Ends a search that runs; its caller gets an error.
-  ~DiagnoseService();
-  DiagnoseService(const DiagnoseService&) = delete;
-  DiagnoseService& operator=(const DiagnoseService&) = delete;
+  ~DiagnoseService() { stopping_ = true; }
 
  private:
   bool onDiagnose(Request& request, Response& response);
@@ -44,8 +42,8 @@ class DiagnoseService {
   std::atomic<bool> stopping_{false};
   std::mutex searching_;
   ros::CallbackQueue queue_;
-  ros::ServiceServer server_;
   ros::AsyncSpinner spinner_;
+  ros::ServiceServer server_;  // last, and so gone first: its end waits for calls that run, and they see stopping_
 };
 
 /// Gives the calling thread, and those that it starts, a low priority, so that on a busy machine the samples go first.

@@ -47,11 +47,6 @@ LiveStrut::LiveStrut(MonitorHost& host, std::size_t place, const VehicleOptions&
       health_log_(name_.empty() ? node_name : name_),
       drive_(name_.empty() ? node_name : name_, options_.shell.input_timeout) {}
 
-LiveStrut::~LiveStrut() {  // nothing may call back into members that are already gone
-  diagnose_.reset();
-  for (ros::ServiceServer& service : services_) service.shutdown();
-}
-
 ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   for (const std::string& remark : model_.remarks()) ROS_WARN("%s%s", prefix_.c_str(), remark.c_str());
   ros::NodeHandle own = name_.empty() ? private_node : ros::NodeHandle(node, name_);
@@ -75,10 +70,8 @@ ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHan
 void LiveStrut::addTasks() {
   const auto addOfMonitor = [this](const char* task, const auto& describe) {
     updater_->add(task, [this, describe](Status& status) {
-      if (monitor() != nullptr)
-        describe(status);
-      else
-        status.summary(Status::STALE, join({host_.whyNoMonitor(), describeSilent(host_.input().silentTopics())}, "; "));
+      if (monitor() != nullptr) return describe(status);
+      status.summary(Status::STALE, join({host_.whyNoMonitor(), describeSilent(host_.input().silentTopics())}, "; "));
     });
   };
   updater_->add("Input", [this](Status& status) { host_.input().describeStrut(place_, status); });

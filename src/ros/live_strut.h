@@ -28,9 +28,6 @@ class LiveStrut {
   /// @param node_name  of the nodelet: what a strut alone is called in the terminal.
   /// @throws std::invalid_argument  as LiveModel and LiveBaseline.
   LiveStrut(MonitorHost& host, std::size_t place, const VehicleOptions& options, const std::string& node_name);
-  ~LiveStrut();
-  LiveStrut(const LiveStrut&) = delete;
-  LiveStrut& operator=(const LiveStrut&) = delete;
 
   /// Advertises topics and services, below the strut's name; of a strut alone they are the node's.
   /// @return where they are.
@@ -79,6 +76,7 @@ class LiveStrut {
   std::optional<HealthLevel> level_;
   std::optional<Accepted> accepted_;
   std::optional<ReportTopics> reports_;
+  // Last, and so gone first: they call back into what is above.
   std::array<ros::ServiceServer, 4> services_;
   std::optional<DiagnoseService<Diagnose>> diagnose_;
   std::optional<diagnostic_updater::Updater> updater_;

@@ -5,23 +5,15 @@
 #include <utility>
 
 #include "conversions.h"
+#include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kMostKept = 4000000.0;  // samples of one strut, of 40 bytes each
 
-std::vector<MonitorSettings> settingsOf(const VehicleOptions& options) {
-  std::vector<MonitorSettings> settings;
-  for (const PipelineOptions& strut : options.struts) settings.emplace_back(strut.monitor);
-  return settings;
-}
-
-}  // namespace
-
 MessagePipeline::MessagePipeline(const VehicleOptions& options, const VehicleStreams& streams,
                                  const tf2::BufferCore* transforms, VehicleMonitor::Sink report, bool keeps_samples)
-    : VehiclePipeline(settingsOf(options), streams,
+    : VehiclePipeline(mapped(options.struts, [](const auto& strut) { return MonitorSettings(strut.monitor); }), streams,
                       {std::move(report),
                        [this, keeps_samples](const auto& sample) {
                          if (keeps_samples) keep(sample);

@@ -8,23 +8,8 @@
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kBodyPeriod = 0.02;  // [s], of portions: some 100 make a test of the vehicle file
-
-}  // namespace
-
-MonitorNodelet::~MonitorNodelet() {
-  // Nothing may call back into members that are already gone.
-  reconfigure_.reset();
-  diagnose_.reset();
-  curves_.reset();
-  tick_.stop();
-  body_.stop();
-  topics_.reset();
-  reset_.shutdown();
-  struts_.clear();
-}
 
 void MonitorNodelet::onInit() {
   ros::NodeHandle node = thread_->serve(getNodeHandle()), private_node = thread_->serve(getPrivateNodeHandle());
@@ -51,8 +36,7 @@ void MonitorNodelet::onInit() {
 void MonitorNodelet::start(ros::NodeHandle node, ros::NodeHandle private_node) {
   input_.emplace(*this, getName(), options_, placement_->streams(), topics_->names());
   if (!isAlone()) diagnostics_.emplace(*this, node, private_node, getName(), options_);
-  std::vector<ros::NodeHandle> own;
-  for (const auto& strut : struts_) own.push_back(strut->start(node, private_node));
+  const auto own = mapped(struts_, [&](const auto& strut) { return strut->start(node, private_node); });
   curves_.emplace(*this, own, options_.common.shell.diagnose_window);
   topics_->listen();
   isAlone() ? startAlone(private_node) : startVehicle(private_node);

@@ -31,10 +31,6 @@ namespace suspension_health_monitor {
 /// the node and whose settings may change while it runs. Every callback comes from one thread, that of all monitors of
 /// the process, so nothing here needs a lock; ~diagnose works beside it.
 class MonitorNodelet : public nodelet::Nodelet, public MonitorHost {
- public:
-  ~MonitorNodelet() override;
-
- private:
   /// @throws std::invalid_argument  on a wrong parameter or vehicle file, after logging it: the loader drops the
   /// nodelet and lives on.
   void onInit() override;
@@ -70,19 +66,18 @@ class MonitorNodelet : public nodelet::Nodelet, public MonitorHost {
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
   std::optional<VehiclePlacement> placement_;
-  std::optional<SensorTopics> topics_;
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
-  std::vector<std::unique_ptr<LiveStrut>> struts_;
   std::optional<InputTask> input_;
-  std::vector<std::string> frames_;  // by sensor, of its newest message; empty before the first
-  ros::WallTimer tick_, body_;
+  std::vector<std::string> frames_;                // by sensor, of its newest message; empty before the first
+  std::optional<VehicleDiagnostics> diagnostics_;  // of a vehicle
+  // What calls back is last, and so gone first: nothing may call back into members that are already gone.
+  std::vector<std::unique_ptr<LiveStrut>> struts_;
+  ros::ServiceServer reset_;  // of a vehicle
+  std::optional<SensorTopics> topics_;
+  ros::WallTimer body_, tick_;  // of a vehicle; of all
   std::optional<LiveCurves> curves_;
-  // Of one strut alone:
-  std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;
-  // Of a vehicle:
-  std::optional<VehicleDiagnostics> diagnostics_;
-  ros::ServiceServer reset_;
-  std::optional<DiagnoseService<DiagnoseVehicle>> diagnose_;
+  std::optional<DiagnoseService<DiagnoseVehicle>> diagnose_;              // of a vehicle
+  std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;  // of one strut alone
 };
 
 /// The same of a vehicle that the parameter `vehicle` describes.

@@ -4,26 +4,18 @@
 #include <mutex>
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr std::chrono::microseconds kRest(500);
 const ros::WallDuration kLongestWait(0.1);  // for a callback, before the thread looks whether it is to end
-
-}  // namespace
 
 std::shared_ptr<MonitorThread> MonitorThread::ofThisProcess() {
   static std::mutex mutex;
   static std::weak_ptr<MonitorThread> shared;
   const std::lock_guard<std::mutex> lock(mutex);
   std::shared_ptr<MonitorThread> thread = shared.lock();
-  if (!thread) {
-    thread = std::make_shared<MonitorThread>();
-    shared = thread;
-  }
+  if (!thread) shared = thread = std::make_shared<MonitorThread>();
   return thread;
 }
-
-MonitorThread::MonitorThread() : thread_([this] { loop(); }) {}
 
 MonitorThread::~MonitorThread() {
   ends_ = true;

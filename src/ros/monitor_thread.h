@@ -23,10 +23,8 @@ class MonitorThread {
   /// @return that of this process; it ends with the last one who holds it.
   static std::shared_ptr<MonitorThread> ofThisProcess();
 
-  MonitorThread();
+  MonitorThread() : thread_([this] { loop(); }) {}
   ~MonitorThread();
-  MonitorThread(const MonitorThread&) = delete;
-  MonitorThread& operator=(const MonitorThread&) = delete;
 
   /// @return whether no callback waits or runs: what was published in this process before has been taken in by all whom
   ///         this thread serves, and so has what they published in turn.

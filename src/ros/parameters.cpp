@@ -18,8 +18,7 @@ OptionValue toValue(XmlRpc::XmlRpcValue& list) {
     list[i].write(text << (i == 0 ? "" : ", "));
     all_texts = all_texts && list[i].getType() == XmlRpc::XmlRpcValue::TypeString;
   }
-  if (all_texts) return text.str();
-  return UnusableList{'[' + text.str() + ']'};
+  return all_texts ? OptionValue(text.str()) : UnusableList{'[' + text.str() + ']'};
 }
 
 void flatten(const std::string& name, XmlRpc::XmlRpcValue& value, OptionMap& result) {

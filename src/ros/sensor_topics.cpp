@@ -2,12 +2,11 @@
 
 #include <cstdint>
 
+#include "suspension_health_monitor/internal/base/text.h"
+
 namespace suspension_health_monitor {
-namespace {
 
 constexpr std::uint32_t kQueueSize = 100000;  // messages that may wait: 100 s at 1 kHz, of IMUs some 50 MB
-
-}  // namespace
 
 SensorTopics::SensorTopics(const ros::NodeHandle& node, const VehicleStreams& streams,
                            const std::vector<std::string>& thermometers, bool by_transforms, const Sinks& sinks)
@@ -16,11 +15,6 @@ SensorTopics::SensorTopics(const ros::NodeHandle& node, const VehicleStreams& st
       thermometers_(thermometers),
       by_transforms_(by_transforms),
       sinks_(sinks) {}
-
-SensorTopics::~SensorTopics() {  // nothing may call back into members that are already gone
-  static_transforms_.shutdown();
-  stop();
-}
 
 void SensorTopics::listen() {
   if (by_transforms_ && !static_transforms_)
@@ -47,9 +41,7 @@ void SensorTopics::stop() {
 }
 
 std::vector<std::string> SensorTopics::names() const {
-  std::vector<std::string> names;
-  for (const VehicleStreams::Sensor& sensor : sensors_) names.push_back(node_.resolveName(sensor.topic));
-  return names;
+  return mapped(sensors_, [this](const VehicleStreams::Sensor& sensor) { return node_.resolveName(sensor.topic); });
 }
 
 void SensorTopics::receiveTransforms(const tf2_msgs::TFMessageConstPtr& tree) {

@@ -34,9 +34,6 @@ class SensorTopics {
   /// @param by_transforms  whether static transforms are needed.
   SensorTopics(const ros::NodeHandle& node, const VehicleStreams& streams, const std::vector<std::string>& thermometers,
                bool by_transforms, const Sinks& sinks);
-  ~SensorTopics();
-  SensorTopics(const SensorTopics&) = delete;
-  SensorTopics& operator=(const SensorTopics&) = delete;
 
   /// Subscribes, unless it has.
   void listen();
@@ -59,6 +56,7 @@ class SensorTopics {
   bool by_transforms_;
   Sinks sinks_;
   tf2::BufferCore transforms_;
+  // Last, and so gone first: they call back into what is above.
   ros::Subscriber static_transforms_;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -10,22 +10,10 @@ namespace suspension_health_monitor {
 
 /// Settings of the shell around the monitor: how readings come in and reports go out.
 struct ShellOptions {
-  std::string sprung_axis = "z";
-  std::string unsprung_axis = "z";
-  std::string target_frame;
-  std::optional<double> sprung_range;
-  std::optional<double> unsprung_range;
-  double input_timeout = 2.0;
-  std::optional<double> max_lag;
-  std::optional<double> sprung_rate;
-  std::optional<double> unsprung_rate;
-  std::string effects;
-  std::string model_file;
-  std::string effects_file;
-  double diagnose_window = 120.0;
-  std::string baseline_file;
-  std::string temperature_topic;
-  std::string road_axis = "z";
+  std::string sprung_axis = "z", unsprung_axis = "z", road_axis = "z", target_frame;
+  std::optional<double> sprung_range, unsprung_range, sprung_rate, unsprung_rate, max_lag;
+  double input_timeout = 2.0, diagnose_window = 120.0;
+  std::string effects, effects_file, model_file, baseline_file, temperature_topic;
   int publish_every = 1;
 };
 

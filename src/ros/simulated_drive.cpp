@@ -71,8 +71,6 @@ MessagesOnTopics messagesOf(const SimulatorOptions& options, const DriveSample& 
   return messages;
 }
 
-std::string truthTopic(const VehicleStrut& strut) { return '~' + strut.name + "/truth"; }
-
 void set(geometry_msgs::Vector3& message, const Eigen::Vector3d& vector) {
   message.x = vector.x();
   message.y = vector.y();
@@ -133,7 +131,8 @@ MessagesOnTopics messagesOf(const VehicleSimulationOptions& options, const Vehic
   }
   for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
     const VehicleStrut& strut = vehicle.struts[i];
-    messages.emplace_back(truthTopic(strut), toMsg(sample.truth.struts[i], strut.hidden, header_of(strut.name)));
+    messages.emplace_back('~' + strut.name + "/truth",
+                          toMsg(sample.truth.struts[i], strut.hidden, header_of(strut.name)));
   }
   messages.emplace_back(kTruthTopic, toMsg(sample.truth, vehicle, header_of("centre_of_gravity")));
   return messages;

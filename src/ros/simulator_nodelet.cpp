@@ -13,7 +13,6 @@
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr std::uint32_t kQueueSize = 1000;
 constexpr int kLeadSamples = 200;  // how far the drive may run ahead of the monitors; fewer than their queues hold
@@ -23,12 +22,9 @@ constexpr double kLongestSleep = 0.05;         // [s], so that unloading the nod
 constexpr std::chrono::seconds kPatience{10};  // until the log says what the drive waits for
 constexpr std::chrono::milliseconds kSendingTime{500};
 
-}  // namespace
-
 SimulatorNodelet::~SimulatorNodelet() {
   running_ = false;
   if (thread_.joinable()) thread_.join();
-  pace_.shutdown();
 }
 
 void SimulatorNodelet::onInit() {
@@ -110,8 +106,7 @@ void SimulatorNodelet::waitForStart(const std::vector<std::string>& awaited) {
 // A monitor advertises its estimates before it subscribes to the IMUs, both in one go of the thread that serves it:
 // once that is idle, both are done.
 void SimulatorNodelet::waitForRecording() {
-  std::vector<std::string> own;
-  for (const auto& [topic, publisher] : publishers_) own.push_back(publisher.getTopic());
+  const auto own = mapped(publishers_, [](const auto& its) { return its.second.getTopic(); });
   Clock::time_point asked = Clock::now();
   while (goesOn()) {
     const std::vector<std::string> missing = recorder_->connect(own);

@@ -49,8 +49,8 @@ class SimulatorNodelet : public nodelet::Nodelet {
   std::shared_ptr<MonitorThread> monitors_ = MonitorThread::ofThisProcess();
   std::map<std::string, ros::Publisher> publishers_;  // by topic as SimulatedInstant has it
   std::optional<ros::Publisher> clock_;
-  ros::Subscriber pace_;
   std::atomic<double> paced_until_{0.0};  // stamp of the newest estimate of the monitor that sets the pace [s]
+  ros::Subscriber pace_;                  // writes it
   std::atomic<bool> running_{true};
   std::optional<DriveRecorder> recorder_;
   std::thread thread_;

@@ -14,10 +14,8 @@ namespace suspension_health_monitor {
 
 /// When a simulated drive is published, and how it is recorded.
 struct PlayingOptions {
-  double start_time = 0.0;
-  double real_time_factor = 1.0;
-  bool publish_clock = false;
-  bool shutdown_at_end = false;
+  double start_time = 0.0, real_time_factor = 1.0;
+  bool publish_clock = false, shutdown_at_end = false;
   std::string record;
   std::string record_topics =
       "/monitor/estimate /monitor/ls /monitor/la /monitor/comparison /monitor/health /simulator/truth";
@@ -41,8 +39,7 @@ inline constexpr OptionField<PlayingOptions> kPlayingFields[] = {
 struct PublishingOptions {
   double gravity = 9.81;
   bool road_imu = false;
-  std::string effects_file;
-  std::string hidden;
+  std::string effects_file, hidden;
   std::string vehicle_model;  ///< for takeVehicleModel(): of a drive of one strut empty
 };
 

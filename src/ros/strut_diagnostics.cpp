@@ -31,6 +31,36 @@ void print(const std::string& line) {
   std::fflush(stdout);
 }
 
+void addEstimate(Status& status, const std::string& name, const StrutEstimate& estimate) {
+  status.addf(name + " damping_to_mass [1/s]", "%.4g", estimate.damping_to_mass);
+  status.addf(name + " stiffness_to_mass [1/s^2]", "%.5g", estimate.stiffness_to_mass);
+  status.addf(name + " explained [%]", "%.1f", 100.0 * estimate.explained);
+  status.add(name + " valid", estimate.valid());
+}
+
+void addJudgement(Status& status, const std::string& name, const std::optional<double>& nominal,
+                  const std::optional<double>& change) {
+  if (nominal) status.addf("nominal " + name, "%.5g", *nominal);
+  if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
+}
+
+void describeDiagnosis(const LiveModel& model, Status& status) {
+  const std::optional<Diagnosis>& diagnosis = model.diagnosis();
+  if (!diagnosis) return;
+  if (const std::vector<std::string> missing = model.missing(); !missing.empty())
+    status.mergeSummary(Status::WARN, std::string("the last diagnosis ") +
+                                          (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
+                                          ", not in the model: " + join(missing, ", "));
+  if (diagnosis->verdict == Verdict::kUnexplained)
+    status.mergeSummary(Status::WARN, "the last diagnosis: something is missing that no effect explains");
+  status.add("diagnosed", nameOf(diagnosis->verdict));
+  status.add("diagnosed effects", join(diagnosis->selected, ", "));
+  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * diagnosis->structured_share);
+  status.addf("diagnosed noise floor [m/s^2]", "%.4g", diagnosis->noise_floor);
+  status.addf("diagnosed from stamp [s]", "%.3f", toSeconds(diagnosis->from));
+  status.addf("diagnosed to stamp [s]", "%.3f", toSeconds(diagnosis->to));
+}
+
 }  // namespace
 
 DriveSummary::DriveSummary(const std::string& strut, double timeout)
@@ -70,40 +100,6 @@ void DriveSummary::tell(const char* until, void (*say)(const std::string& line))
   say(strut_ + ": at the end " + nameOf(newest_.health.level) + ", " + describe(newest_.health));
   say(strut_ + ": " + describe(newest_.estimate));
 }
-
-namespace {
-
-void addEstimate(Status& status, const std::string& name, const StrutEstimate& estimate) {
-  status.addf(name + " damping_to_mass [1/s]", "%.4g", estimate.damping_to_mass);
-  status.addf(name + " stiffness_to_mass [1/s^2]", "%.5g", estimate.stiffness_to_mass);
-  status.addf(name + " explained [%]", "%.1f", 100.0 * estimate.explained);
-  status.add(name + " valid", estimate.valid());
-}
-
-void addJudgement(Status& status, const std::string& name, const std::optional<double>& nominal,
-                  const std::optional<double>& change) {
-  if (nominal) status.addf("nominal " + name, "%.5g", *nominal);
-  if (change) status.addf(name + " change [%]", "%+.1f", 100.0 * *change);
-}
-
-void describeDiagnosis(const LiveModel& model, Status& status) {
-  const std::optional<Diagnosis>& diagnosis = model.diagnosis();
-  if (!diagnosis) return;
-  if (const std::vector<std::string> missing = model.missing(); !missing.empty())
-    status.mergeSummary(Status::WARN, std::string("the last diagnosis ") +
-                                          (diagnosis->verdict == Verdict::kSuspect ? "suspects" : "found") +
-                                          ", not in the model: " + join(missing, ", "));
-  if (diagnosis->verdict == Verdict::kUnexplained)
-    status.mergeSummary(Status::WARN, "the last diagnosis: something is missing that no effect explains");
-  status.add("diagnosed", nameOf(diagnosis->verdict));
-  status.add("diagnosed effects", join(diagnosis->selected, ", "));
-  status.addf("diagnosed structured share [%]", "%.1f", 100.0 * diagnosis->structured_share);
-  status.addf("diagnosed noise floor [m/s^2]", "%.4g", diagnosis->noise_floor);
-  status.addf("diagnosed from stamp [s]", "%.3f", toSeconds(diagnosis->from));
-  status.addf("diagnosed to stamp [s]", "%.3f", toSeconds(diagnosis->to));
-}
-
-}  // namespace
 
 void describeHealth(const SuspensionMonitor& monitor, Status& status) {
   const MonitorReport& report = monitor.report();

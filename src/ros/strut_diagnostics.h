@@ -2,6 +2,7 @@
 
 #include <ros/time.h>
 
+#include <boost/noncopyable.hpp>
 #include <string>
 
 #include "live_model.h"
@@ -14,15 +15,13 @@ namespace suspension_health_monitor {
 /// Tells the terminal at the end of a drive how it was: the worst level, how long each lasted, and the last estimates.
 /// A drive ends with this object, or once a simulated clock, that of a bag, has stood still for a while. The next
 /// summary covers all messages since the start.
-class DriveSummary {
+class DriveSummary : boost::noncopyable {
  public:
   /// @param strut  as the lines name it.
   /// @param timeout  [s]: reports further apart say nothing of the time between them, which is stale; and so long, by
   /// the wall, a clock stands still first.
   DriveSummary(const std::string& strut, double timeout);
   ~DriveSummary();
-  DriveSummary(const DriveSummary&) = delete;
-  DriveSummary& operator=(const DriveSummary&) = delete;
 
   /// Takes in a report of any sample. No allocation.
   void add(const MonitorReport& report);

@@ -187,10 +187,7 @@ void VehicleDiagnostics::publishCoupling() {
 
 void VehicleDiagnostics::describeCoupling(Status& status) const {
   const VehicleCoupling known = coupling();
-  if (!known) {
-    status.summary(Status::STALE, (monitor() != nullptr ? "the drives so far " : "") + known.reason);
-    return;
-  }
+  if (!known) return status.summary(Status::STALE, (monitor() != nullptr ? "the drives so far " : "") + known.reason);
   status.summary(Status::OK, "it is known how the struts move one another");
   if (const std::string mistake = describeMistake(*monitor(), struts_); !mistake.empty())
     status.mergeSummary(Status::WARN, mistake);

@@ -9,7 +9,6 @@
 #include "live_model.h"
 #include "model_file.h"
 #include "suspension_health_monitor/internal/base/setting_groups.h"
-#include "suspension_health_monitor/internal/base/text.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {
@@ -117,15 +116,9 @@ VehicleOptions VehicleOptions::ofOneStrut(const PipelineOptions& options) {
   return one;
 }
 
-std::vector<std::string> VehicleOptions::forceNames() const { return namesOf(layout.known_forces); }
-
 std::vector<std::string> VehicleOptions::temperatureTopics() const {
-  std::vector<std::string> topics;
-  for (const PipelineOptions& strut : struts) topics.push_back(strut.shell.temperature_topic);
-  return topics;
+  return mapped(struts, [](const PipelineOptions& strut) { return strut.shell.temperature_topic; });
 }
-
-std::vector<std::string> VehicleOptions::strutNames() const { return namesOf(layout.struts); }
 
 VehicleLayout readVehicleFile(const std::string& path) {
   OptionMap values = readYaml(path);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "shell_options.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 
 namespace suspension_health_monitor {
@@ -36,8 +37,8 @@ struct VehicleOptions {
   std::string prefix(std::size_t strut) const {
     return isOneStrut() ? "" : "struts/" + layout.struts[strut].name + ": ";
   }
-  std::vector<std::string> strutNames() const;
-  std::vector<std::string> forceNames() const;         ///< of known forces
+  std::vector<std::string> strutNames() const { return namesOf(layout.struts); }
+  std::vector<std::string> forceNames() const { return namesOf(layout.known_forces); }
   std::vector<std::string> temperatureTopics() const;  ///< by strut; empty: it has no thermometer
 };
 

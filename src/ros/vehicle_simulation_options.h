@@ -11,8 +11,7 @@ namespace suspension_health_monitor {
 
 /// What is published of a vehicle's simulated drive, and what it may hide.
 struct VehiclePublishingOptions {
-  std::string sprung_imus = "all";
-  std::string effects_file;
+  std::string sprung_imus = "all", effects_file;
 };
 
 inline constexpr OptionField<VehiclePublishingOptions> kVehiclePublishingFields[] = {

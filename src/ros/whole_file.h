@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/noncopyable.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -13,13 +14,11 @@ namespace suspension_health_monitor {
 /// removed when that file is written next. After commit() the content outlives a loss of power, too. A link stays a
 /// link; what is no regular file (a pipe, /dev/null) is written to as it is. The unfinished file is made anew, never
 /// one that is there already: a link that somebody has put in its place is not followed.
-class WholeFile {
+class WholeFile : boost::noncopyable {
  public:
   /// @throws std::runtime_error  naming the file, if it cannot be written.
   explicit WholeFile(const std::string& path);
   ~WholeFile();
-  WholeFile(const WholeFile&) = delete;
-  WholeFile& operator=(const WholeFile&) = delete;
 
   /// Where to write until commit().
   const std::string& temporaryPath() const { return temporary_path_; }

@@ -69,8 +69,7 @@ class Flattening {
       count(word.size());
       text += (text.empty() ? "" : ", ") + word;
     }
-    if (all_texts) return text;
-    return UnusableList{'[' + text + ']'};
+    return all_texts ? OptionValue(text) : UnusableList{'[' + text + ']'};
   }
 
   void count(std::size_t characters) {

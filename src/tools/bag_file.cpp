@@ -87,10 +87,7 @@ void BagFile::readChunkBytes(const BagChunk& chunk, BagBytes& bytes) {
   const std::string compression = text(findField(record.header, rosbag::COMPRESSION_FIELD_NAME));
   const auto size = record.field<std::uint32_t>(rosbag::SIZE_FIELD_NAME);
   if (record.operation() != rosbag::OP_CHUNK || !size || *size > kLargestChunk) throw damagedChunk();
-  if (compression == "none") {
-    readBlock("chunk", bytes);
-    return;
-  }
+  if (compression == "none") return readBlock("chunk", bytes);
   readBlock("chunk", compressed_);
   resize(bytes, *size);
   try {

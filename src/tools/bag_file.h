@@ -82,9 +82,7 @@ struct BagConnection {
 /// Where a chunk of messages stands, which recording times it spans [ns], and how many messages it holds, of which
 /// connections.
 struct BagChunk {
-  std::uint64_t position = 0;
-  std::uint64_t start = 0, end = 0;
-  std::uint64_t num_messages = 0;
+  std::uint64_t position = 0, start = 0, end = 0, num_messages = 0;
   std::vector<std::uint32_t> connections;
 };
 
@@ -117,8 +115,7 @@ class BagBytes {
     void operator()(char* bytes) const { std::free(bytes); }
   };
   std::unique_ptr<char[], Free> bytes_;
-  std::size_t size_ = 0;
-  std::size_t capacity_ = 0;
+  std::size_t size_ = 0, capacity_ = 0;
 };
 
 /// The messages of a chunk in the order of recording time; their bodies are valid as long as the bytes are.

@@ -15,8 +15,6 @@
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
-namespace po = boost::program_options;
-
 namespace {
 
 /// @return the static transforms (/tf_static) of all bags.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <boost/program_options.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,14 +30,14 @@ struct AskedVehicle {
   std::string prefix(std::size_t strut, const char* after) const { return isStrutAlone() ? "" : names[strut] + after; }
 
   /// @return where a strut's results are among those of the command.
-  nlohmann::json& resultsOf(std::size_t strut, nlohmann::json& whole) const {
+  json& resultsOf(std::size_t strut, json& whole) const {
     return isStrutAlone() ? whole : whole["struts"][names[strut]];
   }
 };
 
 /// @throws std::invalid_argument  as readVehicleFile(), for topics beside a vehicle or twice the same, and for a strut
 /// that is none of it.
-AskedVehicle readVehicle(const boost::program_options::variables_map& values);
+AskedVehicle readVehicle(const po::variables_map& values);
 
 /// Finds the sensors of a vehicle in bags.
 /// @param bags  whose topics become those of VehicleStreams::sensors.
@@ -53,8 +51,7 @@ struct BagOptions {
   AskedVehicle vehicle;
   VehicleOptions settings;
   ImuBags bags;  ///< as findSensors()
-  bool period_measured = false;
-  bool horizon_measured = false;
+  bool period_measured = false, horizon_measured = false;
   std::optional<double> clock_offset;        ///< by which the body's clock seems to be late [s], of readBagOptions()
   std::optional<MotionRange> one_frequency;  ///< likewise, if all motion is at one
 
@@ -62,26 +59,25 @@ struct BagOptions {
 };
 
 /// Adds the bags, the part of each that is to be read, and --json to a subcommand's options.
-void addBags(boost::program_options::options_description& description);
+void addBags(po::options_description& description);
 
 /// @return what addBags() has asked for, without topics.
 /// @throws std::invalid_argument  for a part that ends before it begins.
-ImuBags bagsOf(const boost::program_options::variables_map& values);
+ImuBags bagsOf(const po::variables_map& values);
 
 /// @return these and the other common options, for a subcommand to add its own to.
-boost::program_options::options_description bagOptions();
+po::options_description bagOptions();
 
 /// Runs a subcommand that reads bags: parses its arguments, refuses to write into a file that is read, and begins work,
 /// which a signal interrupts. With -h among the arguments it shows the help only.
 /// @throws  as Command::run().
 /// @param usage, options  as parse().  @param outputs  as requireSeparateFiles().
-void runOnBags(const Arguments& arguments, const std::string& usage,
-               const boost::program_options::options_description& options, const std::vector<std::string>& outputs,
-               void (*work)(const boost::program_options::variables_map& values));
+void runOnBags(const Arguments& arguments, const std::string& usage, const po::options_description& options,
+               const std::vector<std::string>& outputs, void (*work)(const po::variables_map& values));
 
 /// @return how many processor cores may be used.
 /// @throws std::invalid_argument  as command.h.
-int threadsOf(const boost::program_options::variables_map& values);
+int threadsOf(const po::variables_map& values);
 
 /// @return the mean spacing of the stamps at the beginning of the bags, of the slowest topic that is needed [s].
 /// @throws InputError  as readTopics(), or it is no sample_period.  @throws TooLittleError  if there are too few
@@ -95,18 +91,18 @@ void requireFittingPeriod(const ImuBags& bags, double sample_period);
 /// @return the settings that --config and --set give. The models that diagnose -o writes are a config, too: their
 /// effects by model_file, their b1 and b0 as nominal values.
 /// @throws std::invalid_argument  as command.h.
-OptionMap givenSettings(const boost::program_options::variables_map& values);
+OptionMap givenSettings(const po::variables_map& values);
 
 /// Collects the common options. What they leave open, sample_period and integration_horizon, stays open: a monitor
 /// finds it out as it does live.
 /// @throws std::invalid_argument, InputError, TooLittleError  as command.h, readVehicle(), findSensors() and
 /// requireFittingPeriod().
-BagOptions readLiveOptions(const boost::program_options::variables_map& values);
+BagOptions readLiveOptions(const po::variables_map& values);
 
 /// The same, with what they leave open measured from the bags: sample_period by measurePeriod(), the horizon of a strut
 /// alone by what blocks tell of it, if they do.
 /// @throws std::invalid_argument, InputError, TooLittleError  likewise, also if there are too few messages to tell.
-BagOptions readBagOptions(const boost::program_options::variables_map& values);
+BagOptions readBagOptions(const po::variables_map& values);
 
 /// Names of the options that addModelOptions() adds; their values are files, as readEffectsFile() and readModels() read
 /// them.
@@ -115,9 +111,9 @@ inline constexpr const char* kModel = "model";
 
 inline constexpr const char* kAgainst = "against";  ///< name of an option
 
-void addModelOptions(boost::program_options::options_description& description);
+void addModelOptions(po::options_description& description);
 
 /// Adds --effects-file alone.
-void addEffectsFile(boost::program_options::options_description& description);
+void addEffectsFile(po::options_description& description);
 
 }  // namespace suspension_health_monitor

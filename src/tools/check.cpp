@@ -11,8 +11,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-namespace po = boost::program_options;
-
 /// The topics of --vehicle, or of --sprung-topic and --unsprung-topic; none: all of a bag are meant.
 std::vector<BagTopic> topicsOf(const po::variables_map& values) {
   std::vector<BagTopic> topics;

@@ -14,8 +14,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-using nlohmann::json;
-
 constexpr double kFewestBlocks = 3.0;  // that show a spectrum: 16 s
 
 /// Bands of the body's slow motion, of its bounce, and of the wheel [Hz].
@@ -24,9 +22,7 @@ constexpr double kBands[][2] = {{0.25, 0.5}, {0.5, 3.0}, {3.0, 20.0}};
 std::vector<BagTopic> allTopicsOf(const std::string& path) {
   std::vector<std::string> names = topicsWith<sensor_msgs::Imu>(BagFile(path));
   std::sort(names.begin(), names.end());
-  std::vector<BagTopic> topics;
-  for (const std::string& name : names) topics.push_back({name, "the bag"});
-  return topics;
+  return mapped(names, [](const std::string& name) { return BagTopic{name, "the bag"}; });
 }
 
 }  // namespace
@@ -36,8 +32,6 @@ int CheckedImu::axis() const {
   up.cwiseAbs().maxCoeff(&axis);
   return axis;
 }
-
-std::string CheckedImu::upAxis() const { return (up[axis()] < 0.0 ? "-" : "") + std::string(1, "xyz"[axis()]); }
 
 CheckedImus::CheckedImus(const ImuBags& bags, const std::vector<BagTopic>& asked, const std::string& target_frame) {
   std::vector<ImuBags> each;
@@ -84,8 +78,9 @@ CheckedImus::CheckedImus(const ImuBags& bags, const std::vector<BagTopic>& asked
 std::size_t CheckedImus::placeOf(const std::string& topic) {
   const auto found =
       std::find_if(imus.begin(), imus.end(), [&](const CheckedImu& each) { return each.topic == topic; });
-  if (found == imus.end()) imus.push_back({topic});
-  return found == imus.end() ? imus.size() - 1 : static_cast<std::size_t>(found - imus.begin());
+  const auto place = static_cast<std::size_t>(found - imus.begin());
+  if (place == imus.size()) imus.push_back({topic});
+  return place;
 }
 
 double CheckedImus::moved(std::size_t i, const double (&band)[2]) const {
@@ -177,7 +172,7 @@ json CheckedImus::toJson() const {
   return whole;
 }
 
-nlohmann::json dataJson(const BagOptions& options) {
+json dataJson(const BagOptions& options) {
   std::vector<BagTopic> topics;
   for (const BagTopic& topic : options.bags.topics)
     if (!topic.is_force) topics.push_back(topic);

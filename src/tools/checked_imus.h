@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +20,9 @@ struct CheckedImu {
   bool by_gravity = false;                        ///< else `up` is the axis that moves most, of either sign
   bool has_gyro = false;
 
-  int axis() const;            ///< 0 x, 1 y, 2 z
-  std::string upAxis() const;  ///< one of kAxisNames
+  int axis() const;  ///< 0 x, 1 y, 2 z
+  /// @return one of kAxisNames.
+  std::string upAxis() const { return (up[axis()] < 0.0 ? "-" : "") + std::string(1, "xyz"[axis()]); }
 };
 
 /// The IMUs of bags: what each of them is like, what points up, and which is which.
@@ -35,7 +35,7 @@ struct CheckedImus {
   /// @return what is the matter with an IMU and what to do, in a sentence; empty: nothing is.
   std::string faultOf(std::size_t imu) const;
   std::string sentenceOf(const BodyOverWheel& pair) const;
-  nlohmann::json toJson() const;
+  json toJson() const;
 
   std::vector<CheckedImu> imus;
   TopicGaps gaps{ShellOptions().input_timeout};
@@ -50,6 +50,6 @@ struct CheckedImus {
 };
 
 /// What `check` says of the IMUs that a command has read, as its JSON has it: for the first box of every page.
-nlohmann::json dataJson(const BagOptions& options);
+json dataJson(const BagOptions& options);
 
 }  // namespace suspension_health_monitor

@@ -15,8 +15,6 @@ namespace suspension_health_monitor {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
-
 std::vector<std::string> paths(const po::variables_map& values, const std::string& option) {
   if (values.count(option) == 0) return {};
   if (const auto* path = boost::any_cast<std::string>(&values[option].value())) return {*path};
@@ -135,9 +133,7 @@ void printWritten(const po::variables_map& values, const std::vector<std::string
 }
 
 std::vector<std::string> fileNames(const std::vector<std::string>& paths) {
-  std::vector<std::string> names;
-  for (const std::string& path : paths) names.push_back(fs::path(path).filename());
-  return names;
+  return mapped(paths, [](const std::string& path) { return fs::path(path).filename().string(); });
 }
 
 }  // namespace suspension_health_monitor

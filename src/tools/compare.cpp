@@ -91,10 +91,29 @@ void printComparison(const Comparison& comparison) {
   printMap(comparison.views.surface);
 }
 
+void compareDrives(const po::variables_map& values) {
+  std::optional<TextFile> file = outputFile(values, "json");
+  AskedDrives asked(values);
+  asked.read();
+  const AskedVehicle& vehicle = asked.options.vehicle;
+  Progress progress("comparing", 1.0);
+  const RecordedComparison found = compareBags(asked, [&](double share) { progress.update(share); });
+  progress.clear();
+  printBags(asked.options, asked.recorded.bags, asked.gaps);
+  printCoupling(found.coupling, vehicle.names);
+  json whole = wholeJson(vehicle, found.coupling, asked.gaps);
+  for (const std::size_t i : vehicle.asked) {
+    std::printf("\n%s", vehicle.prefix(i, "\n").c_str());
+    printComparison(found.struts[i]);
+    vehicle.resultsOf(i, whole).update(toJson(found.struts[i]));
+  }
+  if (file) file->commit(whole.dump(2) + '\n');
+  printWritten(values, {"json"});
+}
+
 }  // namespace
 
-nlohmann::json toJson(const Comparison& comparison) {
-  using nlohmann::json;
+json toJson(const Comparison& comparison) {
   json model{{"fitted", !comparison.stddev.empty()}};
   addNumbers(comparison.model, model);
   json free_run = jsonOf(comparison.free_run), one_step;
@@ -112,32 +131,8 @@ nlohmann::json toJson(const Comparison& comparison) {
           {"views", jsonOf(comparison.views)}};
 }
 
-namespace {
-
-void compareDrives(const boost::program_options::variables_map& values) {
-  std::optional<TextFile> file = outputFile(values, "json");
-  AskedDrives asked(values);
-  asked.read();
-  const AskedVehicle& vehicle = asked.options.vehicle;
-  Progress progress("comparing", 1.0);
-  const RecordedComparison found = compareBags(asked, [&](double share) { progress.update(share); });
-  progress.clear();
-  printBags(asked.options, asked.recorded.bags, asked.gaps);
-  printCoupling(found.coupling, vehicle.names);
-  nlohmann::json whole = wholeJson(vehicle, found.coupling, asked.gaps);
-  for (const std::size_t i : vehicle.asked) {
-    std::printf("\n%s", vehicle.prefix(i, "\n").c_str());
-    printComparison(found.struts[i]);
-    vehicle.resultsOf(i, whole).update(toJson(found.struts[i]));
-  }
-  if (file) file->commit(whole.dump(2) + '\n');
-  printWritten(values, {"json"});
-}
-
-}  // namespace
-
 void compare(const Arguments& arguments) {
-  boost::program_options::options_description description = bagOptions();
+  po::options_description description = bagOptions();
   addModelOptions(description);
   runOnBags(arguments, "compare BAG... [--model MODEL.yaml] [OPTION]...", description, {"json"}, &compareDrives);
 }

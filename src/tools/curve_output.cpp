@@ -8,14 +8,15 @@
 #include "html_page.h"
 #include "recorded_drives.h"
 #include "recorded_monitor.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
 
-namespace po = boost::program_options;
-using nlohmann::json;
+SHM_FIELDS(CurveChange::Range, from, to, softer)
+
+namespace {
 
 constexpr double kRows = 6.0;  // of a table, or up to twice as many
 constexpr int kTitleWidth = 15;
@@ -51,13 +52,6 @@ json toJson(const std::optional<double>& change, double stddev) {
   return {{"change", *change}, {"interval", {std::expm1(log - half), std::expm1(log + half)}}};
 }
 
-json toJson(const CurveChange& curve) {
-  json ranges = json::array();
-  for (const CurveChange::Range& range : curve.ranges)
-    ranges.push_back({{"from", range.from}, {"to", range.to}, {"softer", range.softer}});
-  return ranges;
-}
-
 /// What is known of a strut from one drive or another.
 struct StrutThere {
   const IdentifyResult& found;
@@ -80,8 +74,8 @@ json against(const std::string& bag, const StrutThere& now, const StrutThere& th
                  {"damping", toJson(strut.damping, strut.damping_stddev)},
                  {"stiffness", toJson(strut.stiffness, strut.stiffness_stddev)},
                  {"payload_change", strut.payload ? json(*strut.payload) : json()},
-                 {"damper_differences", toJson(change.damper)},
-                 {"spring_differences", toJson(change.spring)}});
+                 {"damper_differences", jsonOf(change.damper.ranges)},
+                 {"spring_differences", jsonOf(change.spring.ranges)}});
   return result;
 }
 

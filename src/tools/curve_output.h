@@ -1,9 +1,6 @@
 #pragma once
 
-#include <boost/program_options.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "bag_options.h"
@@ -22,7 +19,7 @@ std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<Iden
 void printCurves(const StrutCurves& curves, const std::optional<double>& mass);
 
 /// Adds "damper_curve" and "spring_curve", over the body's mass.
-void addCurves(const StrutCurves& curves, nlohmann::json& into);
+void addCurves(const StrutCurves& curves, json& into);
 
 /// Tells people how far and how fast a strut moves, and how its stops are used; nothing of one that does not move.
 void printTravel(const TravelStatistics& travel);
@@ -32,13 +29,11 @@ void printTravel(const TravelStatistics& travel);
 /// @return by strut `bag`, its curves there, `change` in a sentence and, with valid estimates of both, the numbers of
 /// it; empty if --against is not given.
 /// @throws std::invalid_argument, InputError, TooLittleError  as identify, with the bag's name before.
-std::vector<nlohmann::json> againstOther(boost::program_options::variables_map values,
-                                         const std::vector<IdentifyResult>& now,
-                                         const std::vector<StrutCurves>& curves);
+std::vector<json> againstOther(po::variables_map values, const std::vector<IdentifyResult>& now,
+                               const std::vector<StrutCurves>& curves);
 
 /// What the page of curves is made of.
 /// @param values  of the command that makes it.  @param whole  what was found, as --json has it.
-nlohmann::json curveFindings(const boost::program_options::variables_map& values, const BagOptions& options,
-                             nlohmann::json whole);
+json curveFindings(const po::variables_map& values, const BagOptions& options, json whole);
 
 }  // namespace suspension_health_monitor

@@ -15,9 +15,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-namespace po = boost::program_options;
-using nlohmann::json;
-
 constexpr std::size_t kShownCandidates = 8;
 
 json standardDeviations(const FittedModel& fit) {
@@ -79,47 +76,6 @@ json toJson(const EffectCost& cost) {
     if (change && cost.fits_without) row[name] = {{"change", change->value}, {"stddev", change->stddev}};
   return row;
 }
-
-}  // namespace
-
-void addNumbers(const StrutModel& model, json& into) {
-  into["parameters"] = jsonOf(model);
-  into["coefficients"] = into["shapes"] = json::object();
-  for (const ModelNumber& number : numbersOf(model)) {
-    if (number.kind == ModelNumber::Kind::kCoefficient) into["coefficients"][number.name] = number.value;
-    if (number.kind == ModelNumber::Kind::kShape) into["shapes"][number.name] = number.value;
-  }
-}
-
-json toJson(const Diagnosis& found) {
-  json ranking = json::array();
-  for (const RankedModel& ranked : found.ranking) {
-    json row = jsonOf(ranked);
-    row.erase("model");  // its numbers follow by name
-    if (ranked.failure != FitFailure::kNone) row["failure"] = reasonOf(ranked.failure);
-    addNumbers(ranked.model, row);
-    ranking.push_back(row);
-  }
-  json whole = jsonOf(found);
-  whole["ranking"] = ranking;
-  whole["base"] = {{"held_out_rmse", found.base.held_out_rmse},
-                   {"fit_percent", found.base_fit_percent},
-                   {"parameters", jsonOf(found.base.model)}};
-  if (!found.remainder.empty()) whole["remainder"] = found.remainder;
-  if (found.extended) {
-    whole["explained_share"] = found.explained_share;
-    json extended{{"held_out_rmse", found.extended->held_out_rmse},
-                  {"fit_percent", found.extended_fit_percent},
-                  {"fitted_to_all_samples", found.final_fit->all_samples},
-                  {"stddevs", standardDeviations(*found.final_fit)}};
-    addNumbers(found.final_fit->model, extended);
-    whole["extended"] = extended;
-    for (const EffectCost& cost : costsOf(found)) whole["costs"].push_back(toJson(cost));
-  }
-  return whole;
-}
-
-namespace {
 
 /// Tells people which candidates were not tried.
 /// @return the same for programs.
@@ -207,6 +163,43 @@ void search(const po::variables_map& values) {
 }
 
 }  // namespace
+
+void addNumbers(const StrutModel& model, json& into) {
+  into["parameters"] = jsonOf(model);
+  into["coefficients"] = into["shapes"] = json::object();
+  for (const ModelNumber& number : numbersOf(model)) {
+    if (number.kind == ModelNumber::Kind::kCoefficient) into["coefficients"][number.name] = number.value;
+    if (number.kind == ModelNumber::Kind::kShape) into["shapes"][number.name] = number.value;
+  }
+}
+
+json toJson(const Diagnosis& found) {
+  json ranking = json::array();
+  for (const RankedModel& ranked : found.ranking) {
+    json row = jsonOf(ranked);
+    row.erase("model");  // its numbers follow by name
+    if (ranked.failure != FitFailure::kNone) row["failure"] = reasonOf(ranked.failure);
+    addNumbers(ranked.model, row);
+    ranking.push_back(row);
+  }
+  json whole = jsonOf(found);
+  whole["ranking"] = ranking;
+  whole["base"] = {{"held_out_rmse", found.base.held_out_rmse},
+                   {"fit_percent", found.base_fit_percent},
+                   {"parameters", jsonOf(found.base.model)}};
+  if (!found.remainder.empty()) whole["remainder"] = found.remainder;
+  if (found.extended) {
+    whole["explained_share"] = found.explained_share;
+    json extended{{"held_out_rmse", found.extended->held_out_rmse},
+                  {"fit_percent", found.extended_fit_percent},
+                  {"fitted_to_all_samples", found.final_fit->all_samples},
+                  {"stddevs", standardDeviations(*found.final_fit)}};
+    addNumbers(found.final_fit->model, extended);
+    whole["extended"] = extended;
+    for (const EffectCost& cost : costsOf(found)) whole["costs"].push_back(toJson(cost));
+  }
+  return whole;
+}
 
 void diagnose(const Arguments& arguments) {
   po::options_description description = bagOptions();

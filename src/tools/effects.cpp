@@ -12,9 +12,7 @@ namespace {
 
 /// "gap [m], width [m]"
 std::string withUnits(const std::vector<EffectLibrary::Description::NameAndUnit>& numbers) {
-  std::vector<std::string> all;
-  for (const auto& [name, unit] : numbers) all.push_back(name + " [" + unit + "]");
-  return join(all);
+  return join(mapped(numbers, [](const auto& number) { return number.first + " [" + number.second + "]"; }));
 }
 
 /// @return the unit of the one coefficient, or of each.
@@ -65,7 +63,7 @@ void printForTerminal(const std::vector<EffectLibrary::Description>& effects) {
 }  // namespace
 
 void effects(const Arguments& arguments) {
-  boost::program_options::options_description description("options");
+  po::options_description description("options");
   addEffectsFile(description);
   description.add_options()("markdown", "as the table of doc/effects.md");
   const auto values = parse(arguments, "effects [--effects-file FILE] [--markdown]", description);

@@ -19,10 +19,10 @@
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
 
-namespace po = boost::program_options;
-using nlohmann::json;
+SHM_FIELDS(RecordedMonitor::Recording, name, from)
+
+namespace {
 
 /// What the monitor says over time, and what it judges by then: evenly thinned, so that neither memory nor the page
 /// grows with the drive.
@@ -119,13 +119,11 @@ json findingsOf(const RecordedMonitor& recorded, std::size_t strut, const Health
   const HealthLog& log = recorded.log(strut);
   const MonitorSettings& settings = monitor.options();
   const double duration = toSeconds(log.elapsed());
-  json begins = json::array();
-  for (const auto& [name, from] : recordings) begins.push_back({{"name", name}, {"from", toSeconds(from)}});
   result.update({{"strut", recorded.vehicle().names[strut]},
                  {"source", sourceOf(namesOf(recordings), duration, monitor.period())},
                  {"horizon", monitor.horizonSamples() * monitor.period()},
                  {"judged_by", recorded.reference(strut)},
-                 {"recordings", begins},
+                 {"recordings", jsonOf(recordings)},
                  {"duration", duration},
                  {"early_warnings", jsonOf(log.earlyWarnings())},
                  {"thresholds",

@@ -1,16 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "command.h"
+#include "results.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-namespace po = boost::program_options;
 
 constexpr std::size_t kPlotLines = 25;
 constexpr int kCurvePoints = 241;
@@ -53,14 +51,9 @@ void plot(const std::vector<MagnitudePoint>& curves) {
   }
 }
 
-nlohmann::json toJson(const std::vector<MagnitudePoint>& curves) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const MagnitudePoint& point : curves)
-    list.push_back({{"frequency_hz", point.frequency_hz}, {"strut", point.strut}, {"filter", point.filter}});
-  return list;
-}
-
 }  // namespace
+
+SHM_FIELDS(MagnitudePoint, frequency_hz, strut, filter)
 
 void horizon(const Arguments& arguments) {
   po::options_description description("options");
@@ -75,7 +68,7 @@ void horizon(const Arguments& arguments) {
   const double horizon = proposeHorizon(b1, b0), bandwidth_hz = bandwidth(b1, b0) / (2.0 * M_PI);
   const std::vector<MagnitudePoint> curves = curvesOf(b1, b0, horizon, bandwidth_hz);
   if (std::optional<TextFile> file = outputFile(*values, "json")) {
-    const nlohmann::json all{{"horizon", horizon}, {"bandwidth_hz", bandwidth_hz}, {"curves", toJson(curves)}};
+    const json all{{"horizon", horizon}, {"bandwidth_hz", bandwidth_hz}, {"curves", jsonOf(curves)}};
     file->commit(all.dump(2) + '\n');
   }
   plot(curves);

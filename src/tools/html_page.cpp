@@ -6,15 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "command.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-
 /// JSON that may stand inside a script element, whatever a file or an effect is called.
 std::string harmless(const json& findings) {
   return boost::replace_all_copy(findings.dump(-1, ' ', true, json::error_handler_t::replace), "<", "\\u003c");
@@ -33,7 +30,7 @@ std::string sourceOf(const std::vector<std::string>& names, double duration, dou
   return join(names) + formatted(": %.4g s at %.4g Hz", duration, 1.0 / period);
 }
 
-json originOf(const boost::program_options::variables_map& values, const std::vector<std::string>& topics) {
+json originOf(const po::variables_map& values, const std::vector<std::string>& topics) {
   return {{"made", std::time(nullptr)},  // POSIX: [s] since 1970
           {"program", "suspension_bag " PACKAGE_VERSION},
           {"command", values[kCommandLine].as<std::string>()},
@@ -57,7 +54,7 @@ void HtmlPage::write(std::string_view page, const json& findings) {
   file_.commit(boost::replace_first_copy(std::string(page), "@@findings@@", harmless(findings)));
 }
 
-std::optional<HtmlPage> reportPage(const boost::program_options::variables_map& values) {
+std::optional<HtmlPage> reportPage(const po::variables_map& values) {
   if (values.count(kReport) == 0) return std::nullopt;
   return std::optional<HtmlPage>(std::in_place, values[kReport].as<std::string>());
 }

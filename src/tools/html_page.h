@@ -1,13 +1,12 @@
 #pragma once
 
-#include <boost/program_options.hpp>
-#include <nlohmann/json.hpp>
+#include <boost/noncopyable.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "../ros/whole_file.h"
+#include "command.h"
 
 namespace suspension_health_monitor {
 
@@ -21,18 +20,16 @@ class HtmlPage {
 
   /// @param page  the template, with "@@findings@@" where its JSON goes.
   /// @throws std::runtime_error  naming the file, if it cannot be written.
-  void write(std::string_view page, const nlohmann::json& findings);
+  void write(std::string_view page, const json& findings);
 
   /// @param page  the whole page.
   void write(const std::string& page) { file_.commit(page); }
 
  private:
-  class Folder {
+  class Folder : boost::noncopyable {
    public:
     explicit Folder(const std::string& path);
     ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
 
    private:
     std::string path_;
@@ -45,10 +42,10 @@ class HtmlPage {
 
 /// @return the page of --report, begun; nothing: it is not given.
 /// @throws std::runtime_error  as HtmlPage.
-std::optional<HtmlPage> reportPage(const boost::program_options::variables_map& values);
+std::optional<HtmlPage> reportPage(const po::variables_map& values);
 
 /// @return a copy with numbers to five digits: a figure shows no more, and the page stays small.
-nlohmann::json shortened(nlohmann::json value);
+json shortened(json value);
 
 /// The pages with style and scripts in them and "@@findings@@" where their JSON goes: of a search, of health, of
 /// curves. Made from report_page/ when the package is built (cmake/embed_report_page.cmake).
@@ -66,6 +63,6 @@ std::string sourceOf(const std::vector<std::string>& names, double duration, dou
 
 /// What every page tells of itself: when it was made, by what, and from which topics.
 /// @param values  of the command that makes it.
-nlohmann::json originOf(const boost::program_options::variables_map& values, const std::vector<std::string>& topics);
+json originOf(const po::variables_map& values, const std::vector<std::string>& topics);
 
 }  // namespace suspension_health_monitor

@@ -17,9 +17,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-namespace po = boost::program_options;
-using nlohmann::json;
-
 constexpr std::size_t kTableLines = 12;
 
 /// What is known at the end.

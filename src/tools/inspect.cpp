@@ -12,8 +12,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-namespace po = boost::program_options;
-
 constexpr const char *kWheelMass = "wheel-mass", *kTyreStiffness = "tyre-stiffness", *kBounce = "bounce";  // options
 
 /// @return the option's value, or LOW..HIGH.

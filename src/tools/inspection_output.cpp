@@ -7,13 +7,10 @@
 #include <cstdio>
 #include <ctime>
 
-#include "command.h"
 #include "html_page.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
-
-using nlohmann::json;
 
 namespace {
 
@@ -44,8 +41,7 @@ std::vector<Row> rowsOf(const Inspected& inspected) {
     if (!strut.wheel) rows.push_back({"adhesion", strut.name, "-", "-", "-", "not asked"});
   }
   for (const InspectedNumber& number : inspected.result.numbers) {
-    std::vector<std::string> names;
-    for (const std::size_t i : number.struts) names.push_back(inspected.struts[i].name);
+    const auto names = mapped(number.struts, [&](std::size_t i) { return inspected.struts[i].name; });
     const bool is_ratio = number.quantity == InspectedQuantity::kDampingRatio, is_known = !std::isnan(number.value);
     const double unit = is_ratio ? 1.0 : 100.0;
     const char* const sign = is_ratio ? "" : " %";
@@ -111,8 +107,7 @@ json toJson(const Inspected& inspected) {
   return whole;
 }
 
-std::string pageOf(const Inspected& inspected, const boost::program_options::variables_map& values,
-                   const std::vector<std::string>& bags) {
+std::string pageOf(const Inspected& inspected, const po::variables_map& values, const std::vector<std::string>& bags) {
   std::string lines;
   const std::vector<Row> rows = rowsOf(inspected);
   for (const Row& row : rows) {

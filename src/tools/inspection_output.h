@@ -1,10 +1,9 @@
 #pragma once
 
-#include <boost/program_options.hpp>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "command.h"
 #include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
@@ -22,11 +21,10 @@ std::string summaryOf(const Inspected& inspected);
 /// Tells people every number and the verdict.
 void printInspection(const Inspected& inspected);
 
-nlohmann::json toJson(const Inspected& inspected);
+json toJson(const Inspected& inspected);
 
 /// @param values  of the command.  @param bags  their paths.
 /// @return the page, one sheet of A4 without a script.
-std::string pageOf(const Inspected& inspected, const boost::program_options::variables_map& values,
-                   const std::vector<std::string>& bags);
+std::string pageOf(const Inspected& inspected, const po::variables_map& values, const std::vector<std::string>& bags);
 
 }  // namespace suspension_health_monitor

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <boost/noncopyable.hpp>
 #include <csignal>
 #include <string>
 
@@ -18,12 +19,10 @@ struct Interrupted {
 /// Made before a file is begun. While it lives, a signal that asks the program to end is only noted, and check() throws
 /// it out of the loop that does the work, so that unfinished files are removed on the way. A second one ends the
 /// program at once. What the parent has ignored (nohup) stays ignored. One at a time.
-class Interruption {
+class Interruption : boost::noncopyable {
  public:
   Interruption();
   ~Interruption();
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
 
   /// @throws Interrupted  if a signal has come.
   static void check();
@@ -35,13 +34,11 @@ class Interruption {
 };
 
 /// A progress bar on standard error, drawn only if that is a terminal.
-class Progress {
+class Progress : boost::noncopyable {
  public:
   /// @param total  amount of work, in any unit.
   Progress(std::string label, double total);
   ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   /// @param done  amount of work done so far, 0 .. total.
   /// @throws Interrupted  as Interruption::check().

@@ -43,7 +43,6 @@ void print(const std::vector<Cells>& rows) {
 }  // namespace
 
 void options(const Arguments& arguments) {
-  namespace po = boost::program_options;
   po::options_description description("options");
   description.add_options()("of", po::value<std::string>()->default_value("monitor"), "monitor, simulator or vehicle");
   const auto values = parse(arguments, "options [monitor|simulator|vehicle]", description, "of");

@@ -17,6 +17,20 @@
 #include "suspension_health_monitor/internal/wording/vehicle_sentences.h"
 
 namespace suspension_health_monitor {
+namespace {
+
+/// @return L, if the settings of a strut give the horizon.
+std::optional<int> givenHorizon(const BagOptions& options, std::size_t strut) {
+  const MonitorOptions& settings = options.settings.struts[strut].monitor;
+  if (!settings.integration_horizon) return std::nullopt;
+  return MonitorSettings(settings).horizonSamples(options.period());
+}
+
+void requireCoupling(const VehicleCoupling& coupling) {
+  if (!coupling) throw TooLittleError("the drives " + coupling.reason);
+}
+
+}  // namespace
 
 ReadSamples readSamples(const ImuBags& bags, const PipelineOptions& options, VehicleLayout layout,
                         const SampleSinks& take) {
@@ -104,27 +118,12 @@ void printRejected(const std::string& topic, const RejectCounts& rejected) {
   if (rejected.total() > 0) std::printf("%s%s\n", topic.c_str(), describeRejected(rejected).c_str());
 }
 
-namespace {
-
-/// @return L, if the settings of a strut give the horizon.
-std::optional<int> givenHorizon(const BagOptions& options, std::size_t strut) {
-  const MonitorOptions& settings = options.settings.struts[strut].monitor;
-  if (!settings.integration_horizon) return std::nullopt;
-  return MonitorSettings(settings).horizonSamples(options.period());
-}
-
-void requireCoupling(const VehicleCoupling& coupling) {
-  if (!coupling) throw TooLittleError("the drives " + coupling.reason);
-}
-
-}  // namespace
-
 void requireEnough(Shortcoming shortcoming, const std::string& reason, const std::string& prefix) {
   if (shortcoming == Shortcoming::kModelUntestable) throw InputError(prefix + "the drives " + reason);
   if (shortcoming != Shortcoming::kNone) throw TooLittleError(prefix + "the drives " + reason);
 }
 
-AskedDrives::AskedDrives(const boost::program_options::variables_map& values)
+AskedDrives::AskedDrives(const po::variables_map& values)
     : library(readEffectsFile(values[kEffectsFile].as<std::string>())),
       models(readModels(values, readVehicle(values), library)),
       options(readBagOptions(values)),

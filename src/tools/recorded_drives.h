@@ -65,7 +65,7 @@ void printRejected(const std::string& topic, const RejectCounts& rejected);
 struct AskedDrives {
   /// Reads the files of laws and models, then the beginnings of the bags.
   /// @throws std::invalid_argument, InputError, TooLittleError  as readModels() and readBagOptions().
-  explicit AskedDrives(const boost::program_options::variables_map& values);
+  explicit AskedDrives(const po::variables_map& values);
 
   void read();
 

@@ -33,8 +33,6 @@ class RecordedMonitor {
   /// @throws std::invalid_argument  as LiveModel, naming the strut.
   RecordedMonitor(const BagOptions& options, HealthyStruts healthy, bool keeps_logs, const Report& report = {},
                   const Row& row = {});
-  RecordedMonitor(const RecordedMonitor&) = delete;  // its sinks refer to it
-  RecordedMonitor& operator=(const RecordedMonitor&) = delete;
 
   /// Reads one bag after the other.
   /// @throws TooLittleError  if the bags hold too little for one row of a strut that is asked for.

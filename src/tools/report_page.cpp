@@ -11,12 +11,6 @@
 
 namespace suspension_health_monitor {
 
-using nlohmann::json;
-
-static void to_json(json& into, const PartialResidualBin& bin) {
-  into = {{"at", bin.at}, {"mean", bin.mean}, {"deviation", bin.deviation}, {"law", bin.law}, {"count", bin.count}};
-}
-
 NLOHMANN_JSON_SERIALIZE_ENUM(ForceVariable, {{ForceVariable::kTravel, "travel"},
                                              {ForceVariable::kTravelRate, "travel_rate"},
                                              {ForceVariable::kTime, "time"}})
@@ -62,13 +56,14 @@ json curveOf(const PartialResidual& force) {
 json forceJson(const PartialResidual& force) {
   json result{{"effect", force.effect.effect.name}, {"law", force.effect.effect.law}, {"variables", force.variables}};
   if (force.variables.size() == 2)
-    result.update(
-        {{"edges", json::array({force.grid.first_edges, force.grid.second_edges})}, {"cells", force.grid.cells}});
+    result.update({{"edges", json::array({force.grid.first_edges, force.grid.second_edges})},
+                   {"cells", jsonOf(force.grid.cells)}});
   else if (force.hasMemory())
-    result["branches"] =
-        json::array({{{"name", "compressing"}, {"bins", force.curve}}, {{"name", "extending"}, {"bins", force.back}}});
+    result["branches"] = json::array({{{"name", "compressing"}, {"bins", jsonOf(force.curve)}},
+                                      {{"name", "extending"}, {"bins", jsonOf(force.back)}}});
   else
-    result.update({{"branches", json::array({{{"name", ""}, {"bins", force.curve}}})}, {"curve", curveOf(force)}});
+    result.update(
+        {{"branches", json::array({{{"name", ""}, {"bins", jsonOf(force.curve)}}})}, {"curve", curveOf(force)}});
   return result;
 }
 

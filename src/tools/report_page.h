@@ -15,8 +15,8 @@ namespace suspension_health_monitor {
 /// What a page is made from.
 struct PageSource {
   std::vector<std::string> drive_names;  ///< one per drive
-  nlohmann::json origin;                 ///< as originOf()
-  nlohmann::json data;                   ///< as dataJson()
+  json origin;                           ///< as originOf()
+  json data;                             ///< as dataJson()
 };
 
 /// All that the page of a search is made of.
@@ -30,7 +30,7 @@ struct ReportContent {
 
 /// The drives over time: measured z'' and the residuals before and after, packed as 16-bit numbers, with the stretches
 /// that were held out and a window that is worth looking at first.
-nlohmann::json drivesJson(const ReportContent& content);
+json drivesJson(const ReportContent& content);
 
 /// The pages of a search: of every strut the verdict, the error step by step, measured against predicted over time, the
 /// residual from all sides, the force that was missing, every candidate, and how to use the model. Recordings beyond an
@@ -47,11 +47,10 @@ class ReportPage {
   /// @param whole  what was found as --json has it.
   /// @throws InputError, TooLittleError  if even the model as it is cannot be compared.
   /// @throws std::runtime_error  naming the file that cannot be written.
-  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, nlohmann::json whole,
-             const PageSource& source);
+  void write(const VehicleDiagnosis& found, const DiagnoseOptions& options, json whole, const PageSource& source);
 
  private:
-  void writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options, nlohmann::json& whole,
+  void writeStrut(std::size_t place, const VehicleDiagnosis& all, const DiagnoseOptions& options, json& whole,
                   const PageSource& source);
 
   const AskedVehicle& vehicle_;

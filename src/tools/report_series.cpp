@@ -10,7 +10,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-using nlohmann::json;
 using Series = std::vector<std::pair<const char*, std::vector<double>>>;
 
 constexpr std::size_t kMostValues = 1'250'000;  // in the page: 2 bytes each, 4/3 of that in base64

@@ -72,6 +72,7 @@ SHM_FIELDS(ResidualSpectrum, frequency, residual, measured, noise, coherence, co
 SHM_FIELDS(ResidualCorrelation, lag, value, lower, upper, share_outside, within)
 SHM_FIELDS(ResidualViews, offset, offset_standard_error, rms, num_samples, time, travel, travel_rate, surface,
            direction, spectrum, whiteness, cross_correlation)
+SHM_FIELDS(PartialResidualBin, at, mean, deviation, law, count)
 SHM_FIELDS(FailureRegion, region, sentence, rmse, rmse_elsewhere, mean, share)
 SHM_FIELDS(PredictionError, rmse, fit_percent)
 SHM_FIELDS(ComparedSegment, drive, period, measured, predicted, wheel, travel, travel_rate, added_force, missing_force)

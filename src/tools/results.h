@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -21,35 +20,35 @@ namespace suspension_health_monitor {
 /// @return a result as an object with its fields by name, where an empty optional field is left out; a matrix as a list
 /// of rows, a stamp in seconds, a level or verdict by its name.
 template <class Value>
-nlohmann::json jsonOf(const Value& value);
+json jsonOf(const Value& value);
 
 template <class Item>
-nlohmann::json jsonOf(const std::vector<Item>& items) {
-  nlohmann::json list = nlohmann::json::array();
+json jsonOf(const std::vector<Item>& items) {
+  json list = json::array();
   for (const Item& item : items) list.push_back(jsonOf(item));
   return list;
 }
 
 template <class Value>
-void addTo(nlohmann::json& into, const char* name, const Value& value) {
+void addTo(json& into, const char* name, const Value& value) {
   into[name] = jsonOf(value);
 }
 
 template <class Value>
-void addTo(nlohmann::json& into, const char* name, const std::optional<Value>& value) {
+void addTo(json& into, const char* name, const std::optional<Value>& value) {
   if (value) addTo(into, name, *value);
 }
 
 template <class Value>
-nlohmann::json jsonOf(const Value& value) {
+json jsonOf(const Value& value) {
   if constexpr (Fields<Value>::value) {
-    nlohmann::json into;
+    json into;
     Fields<Value>::forEach([&](const char* name, auto field) { addTo(into, name, value.*field); });
     return into;
   } else if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
-    nlohmann::json rows = nlohmann::json::array();
+    json rows = json::array();
     for (Eigen::Index i = 0; i < value.rows(); ++i) {
-      rows.push_back(nlohmann::json::array());
+      rows.push_back(json::array());
       for (Eigen::Index j = 0; j < value.cols(); ++j) rows.back().push_back(value(i, j));
     }
     return rows;
@@ -74,31 +73,31 @@ void printEstimates(const IdentifyResult& found, const std::optional<double>& ma
 /// @param change  how the strut is against the healthy one, in a sentence; an empty one is not printed.
 void printChange(const std::string& change);
 
-nlohmann::json toJson(const StrutEstimate& estimate);
-nlohmann::json toJson(const IdentifyResult& found, const std::string& change);
+json toJson(const StrutEstimate& estimate);
+json toJson(const IdentifyResult& found, const std::string& change);
 
 /// @param estimate, strut  by the same estimator.
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
-nlohmann::json toJson(const WheelEstimate& estimate, const StrutEstimate& strut);
+json toJson(const WheelEstimate& estimate, const StrutEstimate& strut);
 
 /// What a search found.
-nlohmann::json toJson(const Diagnosis& found);
+json toJson(const Diagnosis& found);
 
 /// A comparison, with the numbers behind every view.
-nlohmann::json toJson(const Comparison& comparison);
+json toJson(const Comparison& comparison);
 
 /// Adds "parameters", "coefficients" and "shapes" by name.
-void addNumbers(const StrutModel& model, nlohmann::json& into);
+void addNumbers(const StrutModel& model, json& into);
 
 /// How the struts move one another; nothing of a strut alone.
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names);
 
 /// @return what all commands tell programs: which topics were silent and, of a vehicle, how the struts move one
 /// another, with `struts` to be filled.
-nlohmann::json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps);
+json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps);
 
 /// How the body's mass is spread.
 void printBody(const BodyInertiaResult& found);
-nlohmann::json toJson(const BodyInertiaResult& found);
+json toJson(const BodyInertiaResult& found);
 
 }  // namespace suspension_health_monitor

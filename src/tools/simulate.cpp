@@ -13,8 +13,6 @@
 namespace suspension_health_monitor {
 namespace {
 
-namespace po = boost::program_options;
-
 /// Options that have a flag of their own, besides --set NAME=VALUE.
 constexpr std::array kFlags{"scenario", "vehicle", "seed", "duration", "rate"};
 

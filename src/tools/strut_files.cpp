@@ -105,8 +105,7 @@ std::vector<std::optional<Baseline>> readHealthyStruts(const std::string& path, 
 
 }  // namespace
 
-KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
-                       const EffectLibrary& library) {
+KnownModels readModels(const po::variables_map& values, const AskedVehicle& vehicle, const EffectLibrary& library) {
   if (values.count(kModel) == 0) return KnownModels(vehicle.names.size());
   const auto path = values[kModel].as<std::string>();
   if (vehicle.isStrutAlone()) return {readModelFile(path, library)};
@@ -167,7 +166,7 @@ HealthyStruts beforehand(HealthyStruts given, const BagOptions& options) {
   return given;
 }
 
-HealthyStruts healthyOf(const boost::program_options::variables_map& values, const BagOptions& options) {
+HealthyStruts healthyOf(const po::variables_map& values, const BagOptions& options) {
   HealthyStruts given;
   if (values.count(kBaseline) != 0) {
     const auto path = values[kBaseline].as<std::string>();

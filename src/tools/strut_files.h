@@ -1,6 +1,5 @@
 #pragma once
 
-#include <boost/program_options.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,8 +17,7 @@ namespace suspension_health_monitor {
 /// Reads --model.
 /// @return by strut; nothing of a strut that the file does not have.
 /// @throws std::invalid_argument  naming the file and what is wrong in it.
-KnownModels readModels(const boost::program_options::variables_map& values, const AskedVehicle& vehicle,
-                       const EffectLibrary& library);
+KnownModels readModels(const po::variables_map& values, const AskedVehicle& vehicle, const EffectLibrary& library);
 
 /// @return why strutOf() cannot be what health is judged by, in words; empty: it can.
 std::string whyNotNominal(const IdentifyResult& found, const MonitorOptions& options);
@@ -52,7 +50,7 @@ HealthyStruts beforehand(HealthyStruts given, const BagOptions& options);
 /// @return beforehand() with what --baseline gives, if it is given. The file must be there, unlike baseline_file of a
 /// live monitor, which learns a baseline where the file is missing.
 /// @throws std::invalid_argument  likewise, and naming the file and what is wrong in it.
-HealthyStruts healthyOf(const boost::program_options::variables_map& values, const BagOptions& options);
+HealthyStruts healthyOf(const po::variables_map& values, const BagOptions& options);
 
 /// @return what is known of a strut beforehand, else the nominal values, else nothing.
 Baseline knownHealthy(const std::optional<HealthyStrut>& healthy, const PipelineOptions& options);

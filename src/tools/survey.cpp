@@ -8,6 +8,7 @@
 #include "bag_options.h"
 #include "command.h"
 #include "recorded_drives.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
@@ -27,10 +28,8 @@ constexpr std::size_t kLookedAt = 40000;  // samples, where blocks show no strut
 
 // Of the topics that are needed.  @param count  messages of each to look at; becomes those that there were of all.
 std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
-  std::vector<bool> is_required;
-  for (const BagTopic& topic : bags.topics) is_required.push_back(topic.is_needed);
-  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording, is_required);
-  const std::size_t most = std::exchange(count, 0) * is_required.size();
+  PeriodMeasurement measurement(PeriodMeasurement::kFewestOfRecording, mapped(bags.topics, &BagTopic::is_needed));
+  const std::size_t most = std::exchange(count, 0) * bags.topics.size();
   const auto take = [&](std::size_t topic, const auto& message, Stamp) {
     measurement.add(topic, toStamp(message.header.stamp));
     return ++count < most;
@@ -39,13 +38,9 @@ std::optional<double> stampSpacing(const ImuBags& bags, std::size_t& count) {
   return measurement.period();
 }
 
-/// What the bags tell of a strut alone.
-struct Survey {
-  std::optional<RoughStrut> strut;   ///< empty: they show no damped spring
-  std::optional<MotionRange> range;  ///< of what was read until the strut was known
-};
-
-Survey survey(const BagOptions& options) {
+/// @return what the bags tell of a strut alone: the strut, empty: they show no damped spring; and the range of the
+/// motion that was read until it was known.
+std::pair<std::optional<RoughStrut>, std::optional<MotionRange>> survey(const BagOptions& options) {
   VehicleBlocks blocks(VehicleChannels::ofAccelerometers(), options.period());
   std::optional<RoughStrut> rough;
   Drive drive;
@@ -80,7 +75,7 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
-BagOptions readBagOptions(const boost::program_options::variables_map& values) {
+BagOptions readBagOptions(const po::variables_map& values) {
   BagOptions options = readLiveOptions(values);
   MonitorOptions& common = options.settings.common.monitor;
   if (options.period_measured) common.sample_period = measurePeriod(options.bags);

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <exception>
 #include <string>
-#include <vector>
 
 #include "command.h"
 #include "long_work.h"
@@ -10,8 +9,6 @@
 
 namespace suspension_health_monitor {
 namespace {
-
-namespace po = boost::program_options;
 
 constexpr std::array kCommands{
     Command{"simulate", "write a simulated drive into a bag", &simulate},

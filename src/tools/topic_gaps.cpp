@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "command.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
@@ -42,8 +41,6 @@ void TopicGaps::note(std::size_t topic, Stamp stamp) {
   bag.last = stamp;
 }
 
-void TopicGaps::finishBag() { bags_.back().silence.finish(); }
-
 std::vector<std::string> TopicGaps::sentences() const {
   std::vector<std::string> all = faults_;
   for (const Bag& bag : bags_) {
@@ -73,8 +70,8 @@ void TopicGaps::explain(const std::function<void()>& check) const {
   }
 }
 
-nlohmann::json TopicGaps::toJson() const {
-  nlohmann::json list = nlohmann::json::array();
+json TopicGaps::toJson() const {
+  json list = json::array();
   for (const Bag& bag : bags_)
     for (const Silence& silence : bag.silences)
       list.push_back({{"bag", bag.name},

@@ -1,28 +1,27 @@
 #pragma once
 
+#include <boost/noncopyable.hpp>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "command.h"
 #include "suspension_health_monitor/internal/signal/stream_silence.h"
 
 namespace suspension_health_monitor {
 
 /// What is wrong with what was read: which topics were silent while others went on, bag by bag, and what of each bag
 /// was left to be used; and what else was noticed.
-class TopicGaps {
+class TopicGaps : boost::noncopyable {  // its callbacks refer to it
  public:
   /// @param timeout  [s] a longer silence is one.
   explicit TopicGaps(double timeout) : timeout_(fromSeconds(timeout)) {}
-  TopicGaps(const TopicGaps&) = delete;  // its callbacks refer to it
-  TopicGaps& operator=(const TopicGaps&) = delete;
 
   /// @param topics  whose readings are all needed.
   void beginBag(const std::string& path, const std::vector<std::string>& topics);
   /// @param topic  its place; a reading of a topic that beginBag() was not given is ignored.
   void note(std::size_t topic, Stamp stamp);
-  void finishBag();
+  void finishBag() { bags_.back().silence.finish(); }
 
   /// Something else that is wrong with what was read, in a sentence.
   void add(const std::string& fault) { faults_.push_back(fault); }
@@ -35,7 +34,7 @@ class TopicGaps {
   void explain(const std::function<void()>& check) const;
 
   /// The same for programs, by stamps.
-  nlohmann::json toJson() const;
+  json toJson() const;
 
  private:
   struct Bag {

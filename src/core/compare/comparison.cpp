@@ -70,7 +70,7 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
       segments.back().drive = r;
       segments.back().predicted = std::move(predicted);
     }
-  const double mean = meanOf(seriesOf(segments, &ComparedSegment::residuals));
+  const double mean = meanOf(mapped(segments, &ComparedSegment::residuals));
   const Segments sources = segmentsOf(records);
   for (std::size_t i = 0; i < segments.size(); ++i)
     addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
@@ -138,7 +138,7 @@ std::optional<std::vector<StrutState>> settleModel(const Records& records, const
 std::optional<ModelFit> judgedFit(const Records& records, const HoldOut& held_out, const CompareOptions& options,
                                   const std::vector<StrutState>& initial, const Comparison& comparison) {
   if (!options.fit)
-    return ModelFit{comparison.model, initial, seriesOf(comparison.segments, &ComparedSegment::residuals), {}, {}};
+    return ModelFit{comparison.model, initial, mapped(comparison.segments, &ComparedSegment::residuals), {}, {}};
   return fitOutputError(records, held_out.training, comparison.model);
 }
 
@@ -179,8 +179,8 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   std::optional<ComparedDrives> compared = compareSegments(records, comparison.model, *initial);
   if (!compared) return Shortcoming::kNoStableFit;
   comparison.segments = std::move(compared->segments);
-  const auto free_run = errorOf(joined(seriesOf(comparison.segments, &ComparedSegment::measured)),
-                                joined(seriesOf(comparison.segments, &ComparedSegment::predicted)));
+  const auto free_run = errorOf(joined(mapped(comparison.segments, &ComparedSegment::measured)),
+                                joined(mapped(comparison.segments, &ComparedSegment::predicted)));
   if (!free_run) return Shortcoming::kTooShort;
   if (options.fit && free_run->fit_percent < 0.0) return Shortcoming::kNoStableFit;  // worse than a constant
   comparison.free_run = *free_run;
@@ -208,8 +208,8 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   NoiseFloor floor{std::min(comparison.noise_floor, law_leaves)};
   if (by_law < kStructured)
     floor = floorOfResidual(comparison.free_run.rmse, comparison.noise_floor,
-                            seriesOf(comparison.segments, &ComparedSegment::residuals),
-                            seriesOf(comparison.segments, &ComparedSegment::wheel), filter.period, comparison.model);
+                            mapped(comparison.segments, &ComparedSegment::residuals),
+                            mapped(comparison.segments, &ComparedSegment::wheel), filter.period, comparison.model);
   comparison.noise_floor = floor.rms;
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);

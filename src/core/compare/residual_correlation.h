@@ -140,11 +140,11 @@ inline std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegmen
     series.begins.push_back(series.begins.back() + segment.size());
     series.period = segment.period;
   }
-  series.travel = joined(seriesOf(segments, &ComparedSegment::travel));
-  series.rate = joined(seriesOf(segments, &ComparedSegment::travel_rate));
-  series.residual = joined(seriesOf(segments, &ComparedSegment::residuals));
-  series.missing = joined(seriesOf(segments, &ComparedSegment::missing_force));
-  series.wheel = joined(seriesOf(segments, &ComparedSegment::wheel));
+  series.travel = joined(mapped(segments, &ComparedSegment::travel));
+  series.rate = joined(mapped(segments, &ComparedSegment::travel_rate));
+  series.residual = joined(mapped(segments, &ComparedSegment::residuals));
+  series.missing = joined(mapped(segments, &ComparedSegment::missing_force));
+  series.wheel = joined(mapped(segments, &ComparedSegment::wheel));
   if (!(series.rate.squaredNorm() > 0.0)) return std::nullopt;
   series.natural_period = 2.0 * M_PI / std::sqrt(strut.stiffness_to_mass) / series.period;
   series.offset = series.residual.mean();

@@ -5,13 +5,10 @@
 #include "suspension_health_monitor/internal/health/inspection.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kPlateAmplitude = 0.003;  // [m]: 6 mm from top to bottom
 constexpr double kPlateHighest = 25.0;     // [Hz]
 constexpr int kPlateFrequencies = 250;     // 0.1 Hz apart: a twentieth of the width of a wheel hop that is well damped
-
-}  // namespace
 
 double adhesionAt(double frequency, const QuarterCarRatios& car) {
   const std::complex<double> s(0.0, 2.0 * M_PI * frequency);

@@ -3,12 +3,9 @@
 #include <cmath>
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kWindowPeriods = 12.0;  // natural periods in a window, at least
 constexpr std::size_t kShortestWindow = 32;
-
-}  // namespace
 
 Periodogram::Periodogram(std::size_t length) : taper_(length), windowed_(length) {
   for (std::size_t i = 0; i < length; ++i) {

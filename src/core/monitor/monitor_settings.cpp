@@ -8,12 +8,9 @@
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kDefaultHorizon = 0.6;          // [s], the paper's
 constexpr double kFewestSamplesOfMemory = 10.0;  // lambda = 0.9
-
-}  // namespace
 
 MonitorOptions MonitorOptions::of(const std::string& preset) {
   MonitorOptions options;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "suspension_health_monitor/internal/signal/period_measurement.h"
+
 namespace suspension_health_monitor {
 namespace {
 
@@ -12,7 +14,6 @@ constexpr double kHorizonsOfSensorCheck = 17.0;
 constexpr double kChecksPerHorizon = 1.5;  // of the sensors: samples within a horizon say much the same
 
 constexpr double kPeriodTolerance = 0.02;  // an error of e makes b1 wrong by e and b0 by 2 e
-constexpr double kSpacings = 50.0;         // before their mean counts: jitter of half a period shifts it by a hundredth
 
 const MonitorSettings& checked(const MonitorSettings& options) {
   if (!options.sample_period) throw std::invalid_argument("sample_period is not given, must be above 0 [s]");
@@ -26,7 +27,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options, bool has_ow
     : options_(checked(options)),
       horizon_samples_(options.horizonSamples(*options.sample_period)),
       period_(fromSeconds(*options.sample_period)),
-      spacing_(1.0 - 0.1 / kSpacings),
+      spacing_(1.0 - 0.1 / FirstReadings::kSpacings),
       plain_(options, has_own_blocks),
       health_(options.health()),
       sensors_(std::max(options.comparison_window / *options.sample_period, kHorizonsOfSensorCheck * horizon_samples_),
@@ -147,7 +148,8 @@ void SuspensionMonitor::judgeSensors() {
   input_.beyond_strut = sensors_.bodyBeyondStrut();
   input_.beyond_strut_level = sensors_.bodyBeyondStrutLevel();
   input_.unit_fits = sensors_.report().fault != SensorFault::kInG;
-  if (spacing_.weight() >= kSpacings)
+  // By then jitter of half a period shifts their mean by a hundredth.
+  if (spacing_.weight() >= FirstReadings::kSpacings)
     input_.period_fits = std::abs(input_.mean_period / toSeconds(period_) - 1.0) <= kPeriodTolerance;
   changeModels([&](ModelTracker& model, ModelReport& report) { model.setInput(input_, *last_, report); });
   const bool la_tells =

@@ -10,14 +10,11 @@
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr std::size_t kFewestToCompare = 3;  // struts: of two nobody knows which one has changed
 
 // Half of the blocks are new then, of those that there are or that are kept.
 constexpr Stamp kBodyFirst = std::chrono::seconds(5), kBodyEvery = std::chrono::seconds(30);
-
-}  // namespace
 
 VehicleMonitor::VehicleMonitor(const std::vector<MonitorSettings>& settings, Sink sink, int num_forces)
     : sink_(std::move(sink)),

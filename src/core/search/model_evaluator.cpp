@@ -1,6 +1,5 @@
 #include "model_evaluator.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>

@@ -3,27 +3,24 @@
 #include <Eigen/Core>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model_evaluator.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/search/effect_search.h"
 
 namespace suspension_health_monitor {
 
 inline constexpr double kStraight = 0.005;  // of a reading: the nonlinearity of accelerometers
 
-/// How the motion of a kind of drive compares with that of the present one.
-struct MotionChange {
-  DriveKind kind;
-  double travel, travel_rate, time;
-};
-
-inline constexpr MotionChange kDriveChanges[] = {
-    {DriveKind::kMoreTravel, 2.0, 2.0, 1.0},   {DriveKind::kLessTravel, 1.0 / 3.0, 1.0 / 3.0, 1.0},
-    {DriveKind::kSlower, 1.0, 1.0 / 3.0, 1.0}, {DriveKind::kQuicker, 1.0, 3.0, 1.0},
-    {DriveKind::kLonger, 1.0, 1.0, 3.0},
+/// How many times as large the motion of a kind of drive is as that of the present one.
+inline constexpr std::pair<DriveKind, MotionScale> kDriveChanges[] = {
+    {DriveKind::kMoreTravel, {2.0, 2.0, 1.0}},   {DriveKind::kLessTravel, {1.0 / 3.0, 1.0 / 3.0, 1.0}},
+    {DriveKind::kSlower, {1.0, 1.0 / 3.0, 1.0}}, {DriveKind::kQuicker, {1.0, 3.0, 1.0}},
+    {DriveKind::kLonger, {1.0, 1.0, 3.0}},
 };
 
 inline Eigen::VectorXd totalForce(const StrutModel& model, const SegmentedMotion& motion) {
@@ -34,9 +31,9 @@ inline Eigen::VectorXd totalForce(const StrutModel& model, const SegmentedMotion
 }
 
 /// rms difference of the least different model from the first, as a share of the first one's force.
-/// @param motion  of the present drives.
+/// @param motion  of the present drives.  @param change  its factors.
 inline double leastDifference(SegmentedMotion motion, const std::vector<StrutModel>& models,
-                              const MotionChange& change) {
+                              const MotionScale& change) {
   for (StrutMotion& m : motion.samples) {
     m.travel *= change.travel;
     m.travel_rate *= change.travel_rate;
@@ -84,12 +81,12 @@ inline Selection select(const std::vector<EvaluatedModel>& ranking, const HoldOu
 /// smoother, slower, quicker, longer) the one in which the least different of them differs most from the first, their
 /// forces taken along the present motion scaled to that kind. kNoneHelps if none makes it at least twice as much.
 inline SeparatingDrive separatingDrive(const SegmentedMotion& present, const Selection& selection) {
-  const double here = leastDifference(present, selection.models, {DriveKind::kNoneHelps, 1.0, 1.0, 1.0});
+  const double here = leastDifference(present, selection.models, {1.0, 1.0, 1.0});
   SeparatingDrive best{selection.group, DriveKind::kNoneHelps, kClearlyMore * here, here};
-  for (const MotionChange& change : kDriveChanges) {
+  for (const auto& [kind, change] : kDriveChanges) {
     const double there = leastDifference(present, selection.models, change);
     if (!(there > best.difference_there)) continue;
-    best.kind = change.kind;
+    best.kind = kind;
     best.difference_there = there;
   }
   return best;

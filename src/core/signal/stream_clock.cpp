@@ -7,13 +7,10 @@
 #include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};  // D
 constexpr double kMost = 1.0 / (1.0 - StreamClock::kMemory);  // readings that phase and period rest on
 const double kConvincing = std::log(1e3);                     // likelihood ratio, its logarithm
-
-}  // namespace
 
 // Distances count from their mean: an error that the regular times of all these readings share displaces none of them
 // against another.

@@ -6,7 +6,6 @@
 #include <string>
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr int kNumSines = 24;
 
@@ -14,8 +13,6 @@ constexpr int kNumSines = 24;
 constexpr std::array kNoise{RandomPurpose::kSprungNoise, RandomPurpose::kUnsprungNoise, RandomPurpose::kRoadNoise};
 constexpr std::array kDelivery{RandomPurpose::kSprungDelivery, RandomPurpose::kUnsprungDelivery,
                                RandomPurpose::kRoadDelivery};
-
-}  // namespace
 
 BodySway::BodySway(const SimulationOptions& options) {
   RandomStream random(options.seed, RandomPurpose::kSway);

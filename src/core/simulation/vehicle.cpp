@@ -140,11 +140,7 @@ const std::vector<NamedVehicle>& namedVehicles() {
 
 }  // namespace
 
-std::string vehicleNames() {
-  std::vector<std::string> names;
-  for (const NamedVehicle& named : namedVehicles()) names.push_back(named.first);
-  return join(names);
-}
+std::string vehicleNames() { return join(mapped(namedVehicles(), &NamedVehicle::first)); }
 
 Vehicle namedVehicle(std::string_view name) {
   for (const NamedVehicle& named : namedVehicles())

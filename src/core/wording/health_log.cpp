@@ -5,11 +5,8 @@
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr Stamp kLasting = std::chrono::seconds(30);  // of a reason: longer than any start takes
-
-}  // namespace
 
 void HealthLog::addReading(std::size_t sensor, Stamp stamp, Stamp recorded) {
   if (stamp <= Stamp::zero()) return;  // no stamp at all

@@ -254,8 +254,7 @@ std::string describeChange(const std::vector<Drive>& drives, const DiagnoseOptio
 std::string describe(const CornerComparisonReport& report) {
   if (report.numValid() < 3)
     return "cannot tell: " + std::to_string(report.numValid()) + " of 4 corners have a valid estimate, 3 are needed";
-  std::vector<std::string> parts;
-  for (const CornerDamage& damage : report.damages) parts.push_back(describe(damage, report));
+  auto parts = mapped(report.damages, [&](const CornerDamage& damage) { return describe(damage, report); });
   if (report.load) parts.push_back(describeLoad(report));
   if (report.dampers)
     parts.push_back("damping of all other corners alike " + sizeInPercent(*report.dampers) +

@@ -115,9 +115,7 @@ std::string describe(const MotionRange& one_frequency) {
 std::string suggestionOf(const SearchResult& result) {
   if (result.one_frequency) return describe(*result.one_frequency) + ".";
   if (result.verdict == Verdict::kUnexplained) return suggestForUnexplained(result);
-  std::vector<std::string> sentences;
-  for (const SeparatingDrive& drive : result.separating) sentences.push_back(suggest(drive));
-  return join(sentences, " ");
+  return join(mapped(result.separating, suggest), " ");
 }
 
 std::string remainderOf(const SearchResult& result) {

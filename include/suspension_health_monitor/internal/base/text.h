@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -77,12 +79,19 @@ auto prefixed(const std::string& prefix, const Work& work) {
 /// @return the names that are not empty one after the other with `separator` between them.
 std::string join(const std::vector<std::string>& names, const std::string& separator = ", ");
 
+/// @param make  a function of an item, or a member of it.
+/// @return what it makes of every item, in their order.
+template <class Items, class Make>
+auto mapped(const Items& items, const Make& make) {
+  std::vector<std::decay_t<decltype(std::invoke(make, *items.begin()))>> made;
+  for (const auto& item : items) made.push_back(std::invoke(make, item));
+  return made;
+}
+
 /// @return what the records are called, in their order.
 template <class Records>
 std::vector<std::string> namesOf(const Records& records) {
-  std::vector<std::string> names;
-  for (const auto& record : records) names.push_back(record.name);
-  return names;
+  return mapped(records, [](const auto& record) -> std::string { return record.name; });
 }
 
 /// @return the size of a change in whole percent, whatever its sign: "12 %".

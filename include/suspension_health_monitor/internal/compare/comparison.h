@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/compare.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 #include "suspension_health_monitor/internal/record/drive_record.h"
@@ -30,14 +30,6 @@ std::vector<FailureRegion> findFailures(const ResidualViews& views, const Linear
 
 /// @return the range of nearly all values: single extremes would stretch an axis.
 std::pair<double, double> coveredRange(Eigen::VectorXd values);
-
-/// @return one series of every segment, such as &ComparedSegment::measured or &ComparedSegment::residuals.
-template <class Series>
-std::vector<std::vector<double>> seriesOf(const std::vector<ComparedSegment>& segments, const Series& series) {
-  std::vector<std::vector<double>> all;
-  for (const ComparedSegment& segment : segments) all.push_back(std::invoke(series, segment));
-  return all;
-}
 
 struct ComparedDrives {
   std::vector<ComparedSegment> segments;

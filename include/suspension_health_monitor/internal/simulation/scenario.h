@@ -33,12 +33,8 @@ inline constexpr std::size_t kMostHiddenEffects = 4;
 
 /// What a simulated drive is like. The meaning of what users may set is in kSimulationFields.
 struct SimulationOptions {
-  std::string scenario = "paper_clean";
-  std::string vehicle = "default";
-  std::optional<double> damping_to_mass;
-  std::optional<double> stiffness_to_mass;
-
-  std::optional<double> damping_end_fraction;
+  std::string scenario = "paper_clean", vehicle = "default";
+  std::optional<double> damping_to_mass, stiffness_to_mass, damping_end_fraction;
   double ramp_start = 40.0;  ///< when the damping begins to change [s]
   double ramp_end = 100.0;   ///< when it has changed, after ramp_start [s]
 
@@ -49,17 +45,11 @@ struct SimulationOptions {
 
   double rate = 50.0;
   std::optional<double> unsprung_rate;
-  double unsprung_phase = 0.0;
-  double sampling_jitter = 0.0;
-  double noise = 0.024;
+  double unsprung_phase = 0.0, sampling_jitter = 0.0, noise = 0.024;
   bool gaussian_noise = false;  ///< true: normal; false: uniform within +-sqrt(3) noise, as in the paper
-  double dropout = 0.0;
-  double stamp_jitter = 0.0;
-  double clock_offset = 0.0;
-  double clock_skew = 0.0;
+  double dropout = 0.0, stamp_jitter = 0.0, clock_offset = 0.0, clock_skew = 0.0;
 
-  double body_acceleration = 0.0;
-  double body_rate = 0.0;
+  double body_acceleration = 0.0, body_rate = 0.0;
   double gyro_noise = 0.001;  ///< standard deviation of the white noise on both rates [rad/s]
 
   std::vector<ActiveEffect> hidden = {};  ///< effects that the model lacks, at most kMostHiddenEffects

@@ -80,14 +80,10 @@ class Accelerometer {
  private:
   double drawNoise();
 
-  RandomStream noise_random_;
-  RandomStream delivery_random_;
+  RandomStream noise_random_, delivery_random_;
   double noise_;
   bool gaussian_;
-  double dropout_;
-  double stamp_jitter_;
-  double clock_offset_;
-  double clock_rate_;
+  double dropout_, stamp_jitter_, clock_offset_, clock_rate_;
 };
 
 /// What is wrong with the body's IMU.

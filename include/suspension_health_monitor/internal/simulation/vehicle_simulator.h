@@ -19,12 +19,7 @@ struct VehicleDriveOptions {
   std::string tracks = "coherent";
   double duration = 120.0;
   int seed = 1;
-  double rate = 100.0;
-  double noise = 0.03;
-  double gyro_noise = 0.002;
-  double stamp_jitter = 0.0;
-  double dropout = 0.0;
-  double gravity = 9.81;
+  double rate = 100.0, noise = 0.03, gyro_noise = 0.002, stamp_jitter = 0.0, dropout = 0.0, gravity = 9.81;
 };
 
 inline constexpr OptionField<VehicleDriveOptions> kVehicleDriveFields[] = {
