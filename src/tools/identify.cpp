@@ -87,17 +87,17 @@ void print(const RecordedMonitor& recorded, const Found& found, const std::vecto
   }
 }
 
-/// @param suspicion  what is said beside it.
+/// @param fault  of a sensor, that is said beside it.
 /// @return why the strut is not known, neither over the whole drive nor at its end, in words; empty: it is.
-std::string whyNotValid(const IdentifyResult& found, const MonitorOptions& options, const std::string& suspicion) {
+std::string whyNotValid(const IdentifyResult& found, const MonitorOptions& options, SensorFault fault) {
   if (found.estimate.valid() || found.now.valid()) return "";
   if (found.estimate.effective_rows > 0.0)
-    return "no estimate is valid: " + describeDoubt(found.estimate, options.enough()) + suspicion;
+    return "no estimate is valid: " + describeDoubt(found.estimate, options.enough());
   constexpr double kLengths = (kBlockWindows.front() + 1) / 2.0;  // of blocks that overlap by half
   const double enough = kLengths * MonitorSettings(options).presentBlockLength();
   if (static_cast<double>(found.samples) * found.sample_period < enough)
-    return "there is no estimate: too short" + describeEnough(enough) + suspicion;
-  if (!suspicion.empty()) return "there is no estimate" + suspicion;
+    return "there is no estimate: too short" + describeEnough(enough);
+  if (fault == SensorFault::kOtherAxis) return "there is no estimate";
   return std::string("there is no estimate: too little motion, ") + (found.gaps > 0 ? "too many gaps, " : "") +
          "or not the two sides of one strut";
 }
@@ -117,9 +117,9 @@ void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyRes
   std::vector<std::string> reasons;
   for (const std::size_t i : vehicle.asked) {
     const std::string reason =
-        whyNotValid(found[i], options.settings.struts[i].monitor, suspicions(recorded, i, options));
+        whyNotValid(found[i], options.settings.struts[i].monitor, recorded.strut(i).report().health.sensor.fault);
     if (reason.empty()) return;
-    reasons.push_back(vehicle.prefix(i, ": ") + reason);
+    reasons.push_back(vehicle.prefix(i, ": ") + reason + suspicions(recorded, i, options));
   }
   const std::string mistake = describeMistake(recorded.monitor(), vehicle.names);
   throw TooLittleError((mistake.empty() ? join(reasons, "; ") : mistake) +

@@ -65,6 +65,19 @@ def test_tells_bodies_wheels_and_axes_and_writes_a_vehicle_file_that_identify_ta
             assert pair[name] == pytest.approx(struts[pair["wheel"][1:]]["estimate"][name], rel=0.15)
 
 
+def test_struts_are_called_by_the_corners_in_their_topics(program, drive, tmp_path):
+    topics = {"/front/sprung/imu": "/b", "/front/unsprung/imu": "/wheels/front_left/imu",
+              "/rear/sprung/imu": "/d", "/rear/unsprung/imu": "/rear_left/imu"}
+    check(program, rename(drive, tmp_path / "corners.bag", topics), tmp_path, "--write", tmp_path / "vehicle.yaml")
+    assert set(yaml.safe_load((tmp_path / "vehicle.yaml").read_text())["struts"]) == {"front_left", "rear_left"}
+
+
+def test_what_is_too_short_for_gravity_says_so(program, drive, tmp_path):
+    result = program("check", drive, "--end", "5")
+    assert result.returncode == 4 and "No gravity" not in result.stdout
+    assert result.stdout.count("too short to tell which axis is up: record half a minute of driving") == 5
+
+
 def test_one_body_imu_serves_all_wheels(program, drive, tmp_path):
     bag = rename(drive, tmp_path / "one.bag", {"/imu/data": "/b", "/front/unsprung/imu": "/a", "/rear/unsprung/imu": "/d"})
     output, found = check(program, bag, tmp_path, "--write", tmp_path / "vehicle.yaml")

@@ -69,6 +69,13 @@ def test_several_bags_are_one_comparison(program, tmp_path, stop_bag):
     assert "In deep compression" in result["where"][0]["sentence"]
 
 
+def test_stamps_that_jitter_are_no_fault_of_the_model_while_their_clock_is_learned(program, tmp_path):
+    program.succeed("simulate", "--scenario", "iso_road", "--rate", "250", "--set", "unsprung_rate=160", "--set", "stamp_jitter=0.002",
+                    "--set", "noise=0.02", "-o", tmp_path / "jitter.bag")
+    _, result = compare(program, tmp_path, tmp_path / "jitter.bag")
+    assert result["where"][0]["sentence"].startswith("What the model leaves is noise")
+
+
 def test_help_names_the_model(program):
     text = program.succeed("compare", "-h")
     assert text.startswith("usage: suspension_bag compare BAG...")

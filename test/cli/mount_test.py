@@ -106,6 +106,16 @@ def test_a_wrong_axis_is_named(program, level_bag, tmp_path):
     bag = write_turned(level_bag, tmp_path / "turned.bag", PITCH, -PITCH)
     told = program("health", bag, *SETTINGS[:4], "--set", "unsprung_axis=x").stdout
     assert "gravity of /unsprung/imu is on another axis: give unsprung_axis: z" in told
+    assert "cannot tell: gravity of the unsprung IMU is on another axis: give unsprung_axis: z" in told[told.index("at the end"):]
+
+
+@pytest.mark.parametrize("command, words", [
+    ("identify", "there is no estimate; gravity of the unsprung IMU is on another axis: give unsprung_axis: z"),
+    ("diagnose", "gravity of /unsprung/imu is on another axis: give unsprung_axis: z; the drives "),
+    ("compare", "gravity of /unsprung/imu is on another axis: give unsprung_axis: z; the drives ")])
+def test_a_wrong_axis_is_the_reason_that_a_command_gives(program, level_bag, command, words):
+    told = program(command, level_bag, "--set", "unsprung_axis=-z")
+    assert told.returncode == 4 and words in told.stderr
 
 
 def test_range_of_the_sensor_is_where_readings_are_clipped(program, level_bag, tmp_path):

@@ -88,7 +88,7 @@ double mostNoise(const PartSpectra& readings) {
     for (const std::vector<double>& power : readings.parts) sum += power[f];
     lowest = std::min(lowest, sum / kParts);
   }
-  return lowest / (1.0 - 3.0 / std::sqrt(kParts * readings.averages));
+  return lowest / (1.0 - kProven / std::sqrt(kParts * readings.averages));
 }
 
 /// Noise of a sensor that is louder than the other's, or that a sensor has filtered, as most do inside: white within a
@@ -123,7 +123,7 @@ NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double 
   const auto natural = static_cast<std::size_t>(static_cast<double>(spectra->length) / natural_period);
   const double most = mostNoise(*spectraOf(wheel, natural_period));
   // Chance lets one r fit a little better than the true one: what is larger by chance only is not taken.
-  const double beyond_chance = 1.0 + 3.0 / std::sqrt(kParts * spectra->averages * static_cast<double>(count));
+  const double beyond_chance = 1.0 + kProven / std::sqrt(kParts * spectra->averages * static_cast<double>(count));
   double white = 0.0, louder = 1.0;
   for (const double r : kRatios) {
     double largest = 0.0;

@@ -8,9 +8,8 @@
 
 namespace suspension_health_monitor {
 
-constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};          // D
-constexpr double kMostReadings = 1.0 / (1.0 - StreamClock::kMemory);  // readings that phase and period rest on
-const double kConvincing = std::log(1e3);                             // likelihood ratio, its logarithm
+constexpr std::array kDifference{1.0, -4.0, 6.0, -4.0, 1.0};  // D
+const double kConvincing = std::log(1e3);                     // likelihood ratio, its logarithm
 
 // Distances count from their mean: an error that the regular times of all these readings share displaces none of them
 // against another.
@@ -46,7 +45,7 @@ Stamp StreamClock::add(Stamp stamp, double value) {
     follow(now);
     const double off = (now - time_) / period_;
     sampling_.add(value, off);
-    if (readings_ < kMostReadings && !sampling_.isRegular()) settled_ = stamp;
+    if (isLearning() && !sampling_.isRegular()) settled_ = stamp;
     // A reading that is off by periods follows several lost ones, unless its message waited.
     const bool is_far = std::abs(off) > kSignalTuning.near, waited = is_far && waits_ > 0;
     if (sampling_.isRegular() || (waited && !sampling_.isAsStamped())) {
@@ -145,7 +144,7 @@ void StreamClock::follow(double stamp) {
   off = std::abs(off) > kSignalTuning.near * period_ ? std::remainder(off, period_)
                                                      : off - miscounted * miscount_ * period_;
   if (evidence_ == 0.0 && periods == 1) jitter_.add(square(stamp - stamp_ - step));
-  readings_ = std::min(readings_ + 1.0, kMostReadings);
+  if (isLearning()) readings_ += 1.0;
   const double sum = readings_ * (readings_ + 1.0);
   time_ += step + 2.0 * (2.0 * readings_ - 1.0) / sum * off;
   period_ += 6.0 / sum * off;

@@ -71,6 +71,8 @@ class StreamClock {
  private:
   static constexpr std::size_t kFirst = 512;  // readings that tell the first period
 
+  /// @return true while phase and period rest on fewer readings than are remembered.
+  bool isLearning() const { return readings_ < std::round(1.0 / (1.0 - kMemory)); }
   double medianSpacing(std::size_t over) const;
   double likeliestPeriod(double rough) const;
   void begin(double stamp);
