@@ -260,3 +260,15 @@ def test_known_forces_have_a_table(page_of):
     assert rows["crane"] == ["cannot tell", "cannot tell"]
     root = browser.measured(made.path, made.folder / "measured", 390, False).one("html").attributes
     assert root["data-cut"] == ""
+
+
+def test_the_page_of_health_begins_with_the_corner_that_is_worse_than_its_levels(program, tmp_path):
+    vehicle, bag = tmp_path / "v.yaml", tmp_path / "drive.bag"
+    program.succeed("simulate", "--vehicle-model", "sedan", "--duration", "90", "--vehicle-file", vehicle, "-o", bag,
+                    "--set", "struts/front_left/damping=1000")
+    program.succeed("health", bag, "--vehicle", vehicle, "--report", tmp_path / "page")
+    page = browser.shown(tmp_path / "page" / "report.html", tmp_path / "profile")
+    assert page.one(id="script-errors").text == ""
+    verdict = page.one("section", id="verdict")
+    assert verdict.attributes["data-level"] in ("WARN", "ERROR")
+    assert re.search(r"Over the drive, front left damping \d\d % below front right .*: damage", verdict.one("h1").text)

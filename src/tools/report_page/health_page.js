@@ -4,7 +4,7 @@ function buildHealthPage() {
   const findings = readFindings();
   const {struts} = findings;
   const several = struts.length > 1;
-  showPage(headlineOf(struts), [
+  showPage(headlineOf(struts, findings.corners), [
     dataBox(findings), several ? [overviewSection(struts, findings.corners), levelsSection(struts)] : [],
     struts.map(
         strut =>

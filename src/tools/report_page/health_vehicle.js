@@ -2,15 +2,24 @@
 
 /** The strut that was worst, the first of those to be so. */
 function worstStrut(struts) {
-  const order = ['ERROR', 'WARN', 'OK', 'STALE'];
   const since = ({events}) => events.find(({level}) => level === worstLevel(events)).elapsed;
-  return [...struts].sort(
-      (a, b) => order.indexOf(worstLevel(a.events)) - order.indexOf(worstLevel(b.events)) || since(a) - since(b))[0];
+  const rank = ({events}) => WORST_FIRST.indexOf(worstLevel(events));
+  return [...struts].sort((a, b) => rank(a) - rank(b) || since(a) - since(b))[0];
 }
 
-function headlineOf(struts) {
+/** That of the struts, or of the comparison of the corners over the drive, if that is worse. */
+function wholeLevel(struts, corners) {
+  const level = worstLevel(worstStrut(struts).events);
+  const is_worse = corners && WORST_FIRST.indexOf(corners.level) < WORST_FIRST.indexOf(level);
+  return is_worse && corners.level !== 'OK' ? corners.level : level;
+}
+
+const cornersSentence = ({message}) => typeset(`Over the drive, ${spoken(message)}`);
+
+function headlineOf(struts, corners) {
   const worst = worstStrut(struts);
   const level = worstLevel(worst.events);
+  if (wholeLevel(struts, corners) !== level) return cornersSentence(corners);
   if (struts.length < 2) return headline(worst);
   return level === 'OK' || level === 'STALE' ? `${headline(worst)} at any strut` :
                                                `${capitalised(spoken(worst.strut))}: ${headline(worst)}`;
@@ -28,15 +37,16 @@ function overviewRow({strut, events, end, seconds, duration}) {
 }
 
 function overviewSection(struts, corners) {
-  const worst = worstLevel(worstStrut(struts).events);
+  const worst = wholeLevel(struts, corners);
   return element(
       'section', {id: 'verdict', 'data-level': worst}, element('p', {class: 'source'}, struts[0].source),
-      element('h1', {}, element('span', {class: 'pill'}, worst), element('br'), headlineOf(struts)),
+      element('h1', {}, element('span', {class: 'pill'}, worst), element('br'), headlineOf(struts, corners)),
       wideTable(
           [head('strut'), head('worst'), head('at the end'), LEVELS.map(level => head(level, 'number minor'))],
           struts.map(overviewRow)),
-      corners ? element('p', {class: 'answer'}, element('b', {}, 'Over the drive: '), `${typeset(corners.message)}.`) :
-                null);
+      corners && headlineOf(struts, corners) !== cornersSentence(corners) ?
+          element('p', {class: 'answer'}, `${cornersSentence(corners)}.`) :
+          null);
 }
 
 /** The levels of all struts, one band below the other, with one window in time. */

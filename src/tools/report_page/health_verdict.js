@@ -1,6 +1,7 @@
 // What the monitor said, in words: the worst, how it stands at the end, and how long each level held.
 
 const LEVELS = ['OK', 'WARN', 'ERROR', 'STALE'];
+const WORST_FIRST = ['ERROR', 'WARN', 'OK', 'STALE'];
 const TONES = {
   OK: 'fine',
   WARN: 'open',
@@ -30,7 +31,7 @@ function span(seconds) {
   return hours ? `${hours} h ${minutes} min` : `${minutes} min ${whole % 60} s`;
 }
 
-const worstLevel = events => ['ERROR', 'WARN', 'OK', 'STALE'].find(level => events.some(each => each.level === level));
+const worstLevel = events => WORST_FIRST.find(level => events.some(each => each.level === level));
 
 // What is still so at the end is told as it is then.
 function headline({events, end}) {
