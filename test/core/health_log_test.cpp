@@ -92,6 +92,24 @@ TEST(HealthLog, EachLevelHoldsUntilTheNext) {
   EXPECT_EQ(log.latest().time, fromSeconds(30.0));
 }
 
+TEST(HealthLog, TheLastReasonThatLastedIsToldBesideTheFirst) {
+  HealthLog log(kTimeout, kSensors);
+  for (int k = 1; k <= 600; ++k) {
+    MonitorReport report = reportAt(0.1 * k, HealthLevel::kStale);
+    report.health.doubt = k < 50 ? EstimateDoubt::kNoRows : EstimateDoubt::kNotExplained;
+    if (k % 100 == 77) report.health.doubt = EstimateDoubt::kFewRows;  // for a moment
+    if (k >= 200) report.health.doubt = EstimateDoubt::kNotExplained;
+    addReading(log, report.stamp);
+    log.addReport(report);
+    if (k == 400) {
+      EXPECT_EQ(log.events()[0].message, "cannot tell: " + describe(EstimateDoubt::kNoRows));
+    }
+  }
+  ASSERT_EQ(levels(log), "STALE ");
+  EXPECT_EQ(log.events()[0].message, "cannot tell: " + describe(EstimateDoubt::kNoRows) +
+                                         "; later: cannot tell: " + describe(EstimateDoubt::kNotExplained));
+}
+
 TEST(HealthLog, WhatIsKnownIsOldAfterTheTimeout) {
   HealthLog log(kTimeout, kSensors);
   drive(log, 0.1, 10.0, HealthLevel::kOk);
