@@ -25,7 +25,13 @@ void SamplingTest::add(double value, double off) {
     e += kDifference[i] * *x;
     r += kDifference[i] * 0.5 * (x[1] - x[-1]) * (off_.window()[kReach + i] - mean);
   }
-  products_.add({r * r, r * e});
+  products_.add({r * r, r * e, e * e});
+}
+
+// The logarithm of the likelihood ratio is half the difference of the sums of squares over the variance of e.
+bool SamplingTest::isCertainlyRegular() const {
+  const double difference = products_.mean(0) - 2.0 * products_.mean(1);
+  return products_.weight() * difference > 2.0 * kWindow * kConvincing * products_.mean(2);
 }
 
 void StreamClock::interrupt() {

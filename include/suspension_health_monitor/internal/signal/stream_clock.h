@@ -29,6 +29,8 @@ class SamplingTest {
   /// @return true if that is likelier; both false: there are no readings yet, or they do not move. The sums of squares
   /// of e - r and e differ by r^2 - 2 r e.
   bool isRegular() const { return products_.mean(0) > 2.0 * products_.mean(1); }
+  /// @return true if it is kConvincing times as likely, fourth differences next to each other counting once.
+  bool isCertainlyRegular() const;
   bool isAsStamped() const { return products_.mean(0) < 2.0 * products_.mean(1); }
 
  private:
@@ -37,7 +39,7 @@ class SamplingTest {
   static constexpr int kWindow = 2 * (kReach + kHalf) + 1;
 
   DelayLine values_{kWindow}, off_{kWindow};
-  RunningMeans<2> products_{0.9999};  // r^2, r e
+  RunningMeans<3> products_{0.9999};  // r^2, r e, e^2
 };
 
 /// When the readings of one stream were taken, by their stamps: phase and period of a stream that reads regularly, by
@@ -60,9 +62,9 @@ class StreamClock {
   /// The next reading begins another series: its stamp may be any.
   void interrupt();
 
-  /// @return until when stamps were taken as they are, though the readings showed later that they had been taken
-  /// regularly; the least stamp of all if they do not.
-  Stamp settled() const { return sampling_.isRegular() ? settled_ : Stamp::min(); }
+  /// @return until when stamps were taken as they are, though the readings showed later that they had certainly
+  /// been taken regularly; the least stamp of all if they do not.
+  Stamp settled() const { return sampling_.isCertainlyRegular() ? settled_ : Stamp::min(); }
 
   double period() const { return period_; }                     ///< [s]; 0 before the second reading
   double jitter() const { return std::sqrt(jitter_.mean()); }   ///< standard deviation of the spacing [s]
