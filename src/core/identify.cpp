@@ -79,7 +79,9 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
   result.rejected = rejected.byName();
   if (const auto warning = periodWarning(monitor)) result.warnings.push_back(*warning);
   const SensorReport& sensor = monitor.report().health.sensor;
-  if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated)
+  // A wrong axis is told with the IMU's topic.
+  if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated &&
+      sensor.fault != SensorFault::kOtherAxis)
     result.warnings.push_back(describe(sensor));
   if (!result.isSteady()) result.warnings.push_back(describe(*result.estimate.change));
   return result;

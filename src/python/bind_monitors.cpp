@@ -150,7 +150,10 @@ void bindMonitors(py::module& module) {
       .def("set_model",
            [](LockedMonitor& self, const std::optional<StrutModel>& model) {
              self.push([&](StrutMonitor& monitor) {
-               model ? monitor.setEffects(model->effects, model->linearPart()) : monitor.setEffects({});
+               if (model)
+                 monitor.setEffects(model->effects, model->linearPart());
+               else
+                 monitor.setEffects({});
              });
            })
       .def("set_baseline",

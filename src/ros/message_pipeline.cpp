@@ -30,7 +30,7 @@ void MessagePipeline::push(std::size_t sensor, const sensor_msgs::Imu& message) 
       recent_body_->push(motion);
   VehiclePipeline::push(sensor, toStamp(message.header.stamp), values.data());
   if (monitor() == nullptr) return;
-  const std::optional<MountClaim::Finding> gravity = sensors_.gravityOf(sensor);
+  const std::optional<MountClaim::Finding>& gravity = sensors_.gravityOf(sensor);
   monitor()->setUp(sensors_.streams().sensors[sensor], gravity && gravity->isOnAnotherAxis() ? gravity->name() : "");
 }
 

@@ -112,7 +112,7 @@ VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions
                                const tf2::BufferCore* transforms)
     : streams_(streams) {
   for (const VehicleStreams::Sensor& sensor : streams.sensors)
-    sensors_.push_back({sensor.place, mountOf(sensor.place, options, transforms), sensor.fields, {}, {}});
+    sensors_.push_back({sensor.place, mountOf(sensor.place, options, transforms), sensor.fields, {}, {}, {}});
   values_.reserve(6);
 }
 
@@ -124,7 +124,9 @@ const std::vector<double>& VehicleSensors::read(std::size_t sensor, const sensor
     return values_;
   }
   const geometry_msgs::Vector3& a = message.linear_acceleration;
-  its.claim.add(toStamp(message.header.stamp), {a.x, a.y, a.z});
+  const tf2::Vector3& up = its.mount.up();
+  if (its.claim.add(toStamp(message.header.stamp), {a.x, a.y, a.z}))
+    its.gravity = its.claim.find({up.x(), up.y(), up.z()});
   return values_;
 }
 
@@ -137,17 +139,12 @@ const std::vector<double>& VehicleSensors::read(std::size_t sensor, const geomet
   return values_;
 }
 
-std::optional<MountClaim::Finding> VehicleSensors::gravityOf(std::size_t sensor) const {
-  const tf2::Vector3& up = mount(sensor).up();
-  return sensors_[sensor].claim.find({up.x(), up.y(), up.z()});
-}
-
 std::vector<std::string> VehicleSensors::mountFaults(const std::vector<std::string>& names) const {
   std::vector<bool> is_inclined(sensors_.size(), false);
   for (std::size_t i = 0; i < streams_.channels.struts.size(); ++i) {
     if (!streams_.channels.struts[i].sprung) continue;
     const std::size_t top = streams_.bodyImuOf(i), wheel = streams_.wheelImuOf(i);
-    const auto a = gravityOf(top), b = gravityOf(wheel);
+    const auto &a = gravityOf(top), &b = gravityOf(wheel);
     is_inclined[top] = is_inclined[wheel] = a && b && a->leansAs(*b);
   }
   std::vector<std::string> faults(sensors_.size());

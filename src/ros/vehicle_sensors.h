@@ -87,7 +87,7 @@ class VehicleSensors {
   const RejectCounts& rejected(std::size_t sensor) const { return sensors_[sensor].rejected; }
 
   /// @return what gravity tells of an IMU against the settings; nothing as long as it tells nothing.
-  std::optional<MountClaim::Finding> gravityOf(std::size_t sensor) const;
+  const std::optional<MountClaim::Finding>& gravityOf(std::size_t sensor) const { return sensors_[sensor].gravity; }
 
   /// @param names  of sensors, from the first on.
   /// @return by sensor how its gravity contradicts the settings, in a sentence; empty: it does not. Two IMUs of a strut
@@ -103,6 +103,7 @@ class VehicleSensors {
     std::vector<std::size_t> fields;  // of a wrench
     RejectCounts rejected;
     MountClaim claim;  // of an IMU
+    std::optional<MountClaim::Finding> gravity;
   };
 
   VehicleStreams streams_;

@@ -80,7 +80,10 @@ void printTable(const std::vector<MonitorReport>& reports) {
 
 void printResult(const char* name, const StrutEstimate& estimate, const std::optional<double>& mass) {
   const std::string doubt = estimate.valid() ? "" : "  NOT VALID: " + describe(estimate.doubt);
-  if (std::isnan(estimate.damping_to_mass)) return void(std::printf("%s: nothing is known%s\n", name, doubt.c_str()));
+  if (std::isnan(estimate.damping_to_mass)) {
+    std::printf("%s: nothing is known%s\n", name, doubt.c_str());
+    return;
+  }
   std::printf("%s: damping/mass %s +- %s 1/s, stiffness/mass %s +- %s 1/s^2, %s%s\n", name,
               cell(0, 4, estimate.damping_to_mass).c_str(), cell(0, 4, estimate.dampingAbsoluteStddev()).c_str(),
               cell(0, 4, estimate.stiffness_to_mass).c_str(), cell(0, 4, estimate.stiffnessAbsoluteStddev()).c_str(),
@@ -127,8 +130,10 @@ void printChange(const std::string& change) {
 
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut) {
   const char* const doubt = estimate.valid() ? "" : "  NOT VALID: too little or too poor excitation";
-  if (std::isnan(estimate.damping_to_wheel_mass))
-    return void(std::printf("%s: nothing is known of the wheel%s\n", name, doubt));
+  if (std::isnan(estimate.damping_to_wheel_mass)) {
+    std::printf("%s: nothing is known of the wheel%s\n", name, doubt);
+    return;
+  }
   std::printf(
       "%s: damping/wheel mass %s +- %s 1/s, stiffness/wheel mass %s +- %s 1/s^2, tyre/wheel mass %s +- %s 1/s^2, "
       "%s%s\n",
@@ -156,8 +161,10 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::printf("%16s", names[i].c_str());
     for (std::size_t j = 0; j < names.size(); ++j)
-      i == j ? std::printf("  %14s", "1")
-             : std::printf("  %6.3f +-%6.3f", coupling.ratios[i][j], coupling.stddevs[i][j]);
+      if (i == j)
+        std::printf("  %14s", "1");
+      else
+        std::printf("  %6.3f +-%6.3f", coupling.ratios[i][j], coupling.stddevs[i][j]);
     std::printf("\n");
   }
   if (!std::isnan(coupling.model_error))
@@ -180,7 +187,10 @@ json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, con
 }
 
 void printBody(const BodyInertiaResult& found) {
-  if (!found.body) return void(std::printf("%s\n", describe(found.doubt).c_str()));
+  if (!found.body) {
+    std::printf("%s\n", describe(found.doubt).c_str());
+    return;
+  }
   const BodyInertia& body = *found.body;
   std::printf(
       "M/Iyy %.4g +- %.2g 1/m^2, M/Ixx %.4g +- %.2g 1/m^2, centre of gravity %.3g +- %.2g m ahead and %.3g +- %.2g m "

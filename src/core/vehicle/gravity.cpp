@@ -53,18 +53,19 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
 
 bool BodyLevel::isTurned() const { return lean_ > kVehicleTuning.largest_lean; }
 
-void MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
-  if (!acceleration.allFinite()) return;
+bool MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
+  if (!acceleration.allFinite()) return false;
   if (!begin_ || stamp < *begin_) begin_ = stamp, sum_.setZero(), count_ = 0.0;
   sum_ += acceleration;
   count_ += 1.0;
-  if (toSeconds(stamp - *begin_) < kVehicleTuning.part) return;
+  if (toSeconds(stamp - *begin_) < kVehicleTuning.part) return false;
   const Eigen::Vector3d off = sum_ / count_ - mean_;
   parts_ = std::min(parts_ + 1.0, kVehicleTuning.most_parts);
   mean_ += off / parts_;
   scatter_ += (1.0 - 1.0 / parts_) * off.squaredNorm() -
               (parts_ < kVehicleTuning.most_parts ? 0.0 : scatter_ / kVehicleTuning.most_parts);
   begin_.reset();
+  return true;
 }
 
 bool MountClaim::isKnown() const { return parts_ >= kVehicleTuning.fewest_parts; }

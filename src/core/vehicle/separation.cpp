@@ -55,12 +55,18 @@ void append(const VehicleSample& sample, VehicleDrive& drive) {
   for (std::size_t k = 0; k < drive.forces.size(); ++k) drive.forces[k].values.push_back(sample.forces[k]);
 }
 
-void dropNewest(VehicleDrive& drive, std::size_t count) {
+// Calls change() with every series that has a value for each sample.
+template <class Change>
+static void changeSeries(VehicleDrive& drive, const Change& change) {
   for (Drive& strut : drive.struts) {
-    dropNewest(strut.samples, count);
-    dropNewest(strut.low_pass.unfiltered, count);
+    change(strut.samples);
+    change(strut.low_pass.unfiltered);
   }
-  for (KnownForceRecord& force : drive.forces) dropNewest(force.values, count);
+  for (KnownForceRecord& force : drive.forces) change(force.values);
+}
+
+void dropNewest(VehicleDrive& drive, std::size_t count) {
+  changeSeries(drive, [&](auto& series) { dropNewest(series, count); });
 }
 
 void dropBefore(Stamp begin, VehicleDrive& drive) {
@@ -69,14 +75,9 @@ void dropBefore(Stamp begin, VehicleDrive& drive) {
       std::find_if(samples.begin(), samples.end(), [&](const CornerSample& sample) { return sample.stamp >= begin; });
   const auto count = first - samples.begin();
   if (static_cast<std::size_t>(count) > samples.size() / 4) return;
-  const auto drop = [&](auto& series) {
+  changeSeries(drive, [&](auto& series) {
     series.erase(series.begin(), series.begin() + std::min<std::ptrdiff_t>(count, series.size()));
-  };
-  for (Drive& strut : drive.struts) {
-    drop(strut.samples);
-    drop(strut.low_pass.unfiltered);
-  }
-  for (KnownForceRecord& force : drive.forces) drop(force.values);
+  });
 }
 
 double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,

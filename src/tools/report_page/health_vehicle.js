@@ -10,8 +10,8 @@ function worstStrut(struts) {
 /** That of the struts, or of the comparison of the corners over the drive, if that is worse. */
 function wholeLevel(struts, corners) {
   const level = worstLevel(worstStrut(struts).events);
-  const is_worse = corners && WORST_FIRST.indexOf(corners.level) < WORST_FIRST.indexOf(level);
-  return is_worse && corners.level !== 'OK' ? corners.level : level;
+  const isWorse = corners && WORST_FIRST.indexOf(corners.level) < WORST_FIRST.indexOf(level);
+  return isWorse && corners.level !== 'OK' ? corners.level : level;
 }
 
 const cornersSentence = ({message}) => typeset(`Over the drive, ${spoken(message)}`);

@@ -10,17 +10,17 @@ namespace suspension_health_monitor {
 
 /// Tells faults of a sensor from those of the strut, by what a strut cannot do:
 /// - a vehicle does not climb for good: where gravity is on another axis than the settings say, that axis is wrong;
-/// where one mean reading is gravity (REP 145: +9.81 at rest on the up axis) and
-///   the other is 1, that one is in g. MountClaim judges the mean of each IMU alone;
+///   where one mean reading is gravity (REP 145: +9.81 at rest on the up axis) and the other is 1, that one is in g.
+///   MountClaim judges the mean of each IMU alone;
 /// - a strut passes slow motion as it is: the block estimate contains the ratio of the gains of both sensors;
 /// - a strut takes energy: damping that is certainly negative is that of readings of which one has the wrong sign, and
 ///   a body that shakes three times as much as the wheel may be the wheel;
 /// - a spring lets no wheel move without the body;
 /// - a model that explains less than half of a signal that is motion, not noise (its steps from sample to sample are
 ///   smaller than white noise would have them), was given readings that do not belong together.
-/// A verdict must last for the memory; a stuck sensor is reported at once. kNegativeDamping and kUnrelated are
-/// withdrawn as soon as the block estimate is valid. Samples of the grid come here, after the gate of each stream
-/// (StreamGate). Cost per sample: O(1), no allocation.
+/// A verdict must last for the memory; a stuck sensor and a wrong axis are reported at once. kNegativeDamping and
+/// kUnrelated are withdrawn as soon as the block estimate is valid. Samples of the grid come here, after the gate of
+/// each stream (StreamGate). Cost per sample: O(1), no allocation.
 class SensorCheck {
  public:
   /// @param memory  in samples, above 0.

@@ -61,7 +61,8 @@ class MountClaim {
   };
 
   /// @param acceleration  in the IMU's axes [m/s^2].
-  void add(Stamp stamp, const Eigen::Vector3d& acceleration);
+  /// @return true if a part ends with it: what find() tells may be another than before.
+  bool add(Stamp stamp, const Eigen::Vector3d& acceleration);
 
   /// @return false as long as too little was read to tell anything.
   bool isKnown() const;
