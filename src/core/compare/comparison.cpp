@@ -17,11 +17,12 @@ namespace {
 /// @param taps  of the filter that the drive has passed.
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
                      const std::vector<double>& taps, ComparedSegment& segment) {
-  const MotionError wrong = motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
+  const auto [travel_error, rate_error] =
+      motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
   std::vector<double>& force = segment.missing_force;
   force.resize(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k)
-    force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
+    force[k] = model.force(segment.travel[k] - travel_error[k], segment.travel_rate[k] - rate_error[k],
                            segment.timeDriven(k), motion[k].memory.data());
   passLow(taps, force);
   model.read(segment.body, segment.period, force);
@@ -57,10 +58,10 @@ std::vector<double> ComparedSegment::residuals() const {
   return all;
 }
 
-std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
-                                              const std::vector<StrutState>& initial) {
-  ComparedDrives drives;
-  auto& [segments, motion] = drives;
+std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegments(
+    const Records& records, const StrutModel& model, const std::vector<StrutState>& initial) {
+  std::vector<ComparedSegment> segments;
+  FreeMotion motion;
   for (std::size_t r = 0; r < records.size(); ++r)
     for (const DriveSegment& source : records[r]->segments()) {
       std::vector<double> predicted;
@@ -74,7 +75,7 @@ std::optional<ComparedDrives> compareSegments(const Records& records, const Stru
   const Segments sources = segmentsOf(records);
   for (std::size_t i = 0; i < segments.size(); ++i)
     addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
-  return drives;
+  return std::pair(std::move(segments), std::move(motion));
 }
 
 namespace {
@@ -176,9 +177,9 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!comparison.model.isDampedSpring()) return Shortcoming::kNoDampedSpring;
   const std::optional<std::vector<StrutState>> initial = settleModel(records, options, comparison);
   if (!initial) return Shortcoming::kNoStableFit;
-  std::optional<ComparedDrives> compared = compareSegments(records, comparison.model, *initial);
+  auto compared = compareSegments(records, comparison.model, *initial);
   if (!compared) return Shortcoming::kNoStableFit;
-  comparison.segments = std::move(compared->segments);
+  comparison.segments = std::move(compared->first);
   const auto free_run = errorOf(joined(mapped(comparison.segments, &ComparedSegment::measured)),
                                 joined(mapped(comparison.segments, &ComparedSegment::predicted)));
   if (!free_run) return Shortcoming::kTooShort;
@@ -218,7 +219,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!views) return Shortcoming::kTooShort;
   comparison.views = std::move(*views);
   comparison.where = findFailures(comparison.views, strut, comparison.noise_floor);
-  comparison.forces = partialResiduals(comparison.segments, compared->motion, comparison.model);
+  comparison.forces = partialResiduals(comparison.segments, compared->second, comparison.model);
   report(1.0);
   return Shortcoming::kNone;
 }

@@ -90,18 +90,18 @@ class FreeFormLaws {
   /// The motion of the free run, corrected by what its residual says: the forces that are missing move the strut.
   /// @return false if the model runs away, or nothing moves.
   bool run(const StrutModel& model) {
+    const auto residuals = freeRunResiduals(model, segments_, std::vector<StrutState>(segments_.size()), &motion_);
+    if (!residuals) return false;
     double count = 0.0;
-    std::vector<double> residual;
-    for (const DriveSegment* segment : segments_) {
-      std::vector<StrutState>& states = motion_.emplace_back();
-      if (!runFree(model, *segment, {}, residual, &states)) return false;
-      for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = segment->sprung[k] - residual[k];
-      const MotionError error = motionError(residual, meanOf({residual}), segment->period, model.stiffness_to_mass);
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+      const std::vector<double>& residual = (*residuals)[s];
+      const auto [travel_error, rate_error] =
+          motionError(residual, meanOf({residual}), segments_[s]->period, model.stiffness_to_mass);
       for (std::size_t k = 0; k < residual.size(); ++k) {
-        travel_ += square(states[k].travel -= error.travel[k]);
-        travel_rate_ += square(states[k].travel_rate -= error.travel_rate[k]);
+        travel_ += square(motion_[s][k].travel -= travel_error[k]);
+        travel_rate_ += square(motion_[s][k].travel_rate -= rate_error[k]);
       }
-      count += static_cast<double>(segment->size());
+      count += static_cast<double>(residual.size());
     }
     for (double* sum : {&travel_, &travel_rate_}) *sum = std::sqrt(*sum / count);
     return travel_ > 0.0 && travel_rate_ > 0.0;
@@ -148,7 +148,7 @@ class FreeFormLaws {
   }
 
   const Segments& segments_;
-  std::vector<std::vector<StrutState>> motion_;
+  FreeMotion motion_;
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 

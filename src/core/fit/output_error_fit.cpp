@@ -183,11 +183,13 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
 }
 
 std::optional<Residuals> freeRunResiduals(const StrutModel& model, const Segments& segments,
-                                          const std::vector<StrutState>& initial) {
+                                          const std::vector<StrutState>& initial, FreeMotion* motion) {
   Residuals all;
+  if (motion != nullptr) motion->resize(segments.size());
   for (std::size_t s = 0; s < segments.size(); ++s) {
     std::vector<double>& residuals = all.emplace_back();
-    if (!runFree(model, *segments[s], initial[s], residuals)) return std::nullopt;
+    std::vector<StrutState>* const of_segment = motion != nullptr ? &(*motion)[s] : nullptr;
+    if (!runFree(model, *segments[s], initial[s], residuals, of_segment)) return std::nullopt;
     for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segments[s]->sprung[k] - residuals[k];
   }
   return all;

@@ -40,41 +40,34 @@ inline std::array<double, kNumBodyChannels> bodySizes(const Segments& segments) 
   return sizes;
 }
 
-/// Sums squares over one segment.
-inline void addSegment(const StrutModel& start, const DriveSegment& segment, const std::vector<StrutState>& motion,
-                       DriveSizes& sums) {
-  for (std::size_t k = 0; k < segment.size(); ++k) {
-    const StrutState& state = motion[k];
-    sums.motion.travel += square(state.travel);
-    sums.motion.travel_rate += square(state.travel_rate);
-    for (std::size_t j = 0; j < start.effects.size(); ++j) {
-      const auto& [effect, coefficient, shapes] = start.effects[j];
-      const StrutMotion here{state.travel, state.travel_rate, segment.timeDriven(k), state.memory[j]};
-      sums.forces[j] += square(effect.force(here, shapes.data()));
-    }
-  }
-}
-
 /// @return nothing if the model runs away or there is nothing to fit.
 inline std::optional<DriveSizes> measureSizes(const Segments& segments, const std::vector<SampleMask>& masks,
                                               const StrutModel& start) {
   StrutModel linear = start;  // the effects' memories run along
   for (ActiveEffect& active : linear.effects) active.coefficient = 0.0;
+  FreeMotion motion;
+  const auto residuals = freeRunResiduals(linear, segments, std::vector<StrutState>(segments.size()), &motion);
+  if (!residuals) return std::nullopt;
   DriveSizes sizes;
   sizes.forces.resize(start.effects.size(), 0.0);
   double count = 0.0;
-  std::vector<double> fitted, predicted;
-  std::vector<StrutState> motion;
+  std::vector<double> fitted;
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const DriveSegment& segment = *segments[s];
-    if (!runFree(linear, segment, {}, predicted, &motion)) return std::nullopt;
-    addSegment(start, segment, motion, sizes);
-    count += static_cast<double>(segment.size());
     const SampleMask* mask = maskOf(masks, s);
+    count += static_cast<double>(segment.size());
     for (std::size_t k = 0; k < segment.size(); ++k) {
+      const StrutState& state = motion[s][k];
+      sizes.motion.travel += square(state.travel);
+      sizes.motion.travel_rate += square(state.travel_rate);
+      for (std::size_t j = 0; j < start.effects.size(); ++j) {
+        const auto& [effect, coefficient, shapes] = start.effects[j];
+        const StrutMotion here{state.travel, state.travel_rate, segment.timeDriven(k), state.memory[j]};
+        sizes.forces[j] += square(effect.force(here, shapes.data()));
+      }
       if (mask != nullptr && (*mask)[k] == 0) continue;
       sizes.reading.y += square(segment.sprung[k]);
-      fitted.push_back(segment.sprung[k] - predicted[k]);
+      fitted.push_back((*residuals)[s][k]);
     }
   }
   if (fitted.empty()) return std::nullopt;

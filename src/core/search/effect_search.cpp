@@ -7,6 +7,7 @@
 #include "model_evaluator.h"
 #include "other_causes.h"
 #include "separating_drive.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
@@ -33,8 +34,7 @@ double outlierOf(const ModelFit& fit) {
 }
 
 std::vector<RankedModel> asReported(const std::vector<EvaluatedModel>& ranking) {
-  std::vector<RankedModel> models;
-  for (const EvaluatedModel& evaluated : ranking) models.push_back(evaluated.ranked);
+  std::vector<RankedModel> models = mapped(ranking, &EvaluatedModel::ranked);
   std::stable_sort(models.begin(), models.end(),
                    [](const RankedModel& a, const RankedModel& b) { return a.held_out_rmse < b.held_out_rmse; });
   return models;
@@ -75,7 +75,7 @@ class Search {
     }
     result_.noise_floor = std::min(result_.noise_floor, last.ranked.held_out_rmse);
     conclude(last);
-    for (const SeparatingDrive& drive : result_.separating) result_.indistinguishable.push_back(drive.group);
+    result_.indistinguishable = mapped(result_.separating, &SeparatingDrive::group);
     report(1.0);
     return result_;
   }

@@ -49,13 +49,12 @@ class RowStart {
       const DriveSegment& segment = *segments[s];
       std::vector<double> relative = segment.driving;
       for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
-      const MotionError motion = motionError(relative, meanOf({relative}), segment.period, b0);
+      const auto [travel, travel_rate] = motionError(relative, meanOf({relative}), segment.period, b0);
       const auto length =
           static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * M_PI / (std::sqrt(b0) * segment.period)));
       for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostStartRows / samples)) {
         for (std::size_t k = first; k < end; ++k) {
-          motion_.samples.push_back(
-              {motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
+          motion_.samples.push_back({travel[k], travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
           measured.push_back(segment.sprung[k]);
           const bool is_whole = k >= first + segment.lead() && k + segment.lead() < end;  // what the filter reaches
           weight.push_back(is_whole ? held_out.training[s][k] : 0.0);

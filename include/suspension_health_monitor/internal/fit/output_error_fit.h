@@ -16,6 +16,9 @@ using SampleMask = std::vector<char>;
 /// measured - predicted, per segment of all records and sample [m/s^2].
 using Residuals = std::vector<std::vector<double>>;
 
+/// Motion of free runs, per segment of all records and sample.
+using FreeMotion = std::vector<std::vector<StrutState>>;
+
 /// @return of all segments, one after the other: what is kept by segment and sample.
 template <class Value>
 Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
@@ -38,10 +41,10 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
              std::vector<StrutState>* motion = nullptr);
 
 /// What a model leaves of the measurement when it runs freely over all segments.
-/// @param initial  states in which the segments begin.
+/// @param initial  states in which the segments begin.  @param motion  if wanted.
 /// @return nothing if the model runs away.
 std::optional<Residuals> freeRunResiduals(const StrutModel& model, const Segments& segments,
-                                          const std::vector<StrutState>& initial);
+                                          const std::vector<StrutState>& initial, FreeMotion* motion = nullptr);
 
 /// Residuals beyond this many (robust) standard deviations lose weight in fits and in comparisons of models.
 inline constexpr double kOutlierScale = 4.0;
