@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "parameterization.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,6 +31,9 @@ Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
 /// @return of all segments; 0 of none.
 double meanOf(const Residuals& residuals);
 double meanSquare(const Residuals& residuals);
+
+/// @return rms of what else the body's IMU measured, by channel; 0 where it is not known.
+std::array<double, kNumBodyChannels> bodySizes(const Segments& segments);
 
 /// Runs a model over a segment from a state, as FreeRun does; what it predicts has passed the filter of the segment's
 /// signals and has the faults of the reading that the model has.
