@@ -81,7 +81,8 @@ std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegmen
 namespace {
 
 /// @return nothing if the measurement does not move, or there is none.
-std::optional<PredictionError> errorOf(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
+std::optional<PredictionError> errorOf(const Residuals& measurement, const Residuals& prediction) {
+  const Eigen::VectorXd measured = joined(measurement), predicted = joined(prediction);
   if (measured.size() == 0) return std::nullopt;
   const double error = (measured - predicted).squaredNorm();
   const double spread = (measured.array() - measured.mean()).square().sum();
@@ -120,7 +121,7 @@ std::optional<PredictionError> oneStepError(const std::vector<ComparedSegment>& 
                           model.stiffness_to_mass * row->regressor[kStiffnessToMass] + added.output(2));
     }
   }
-  return errorOf(joined<double>({measured}), joined<double>({predicted}));
+  return errorOf({measured}, {predicted});
 }
 
 /// Fits the model, or keeps it.
@@ -162,12 +163,6 @@ std::vector<std::vector<std::pair<double, double>>> heldOutSpans(const Records& 
   return spans;
 }
 
-int horizonFor(const CompareOptions& options, const StrutModel& model, double period) {
-  if (options.horizon_samples) return *options.horizon_samples;
-  const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass);
-  return horizonSamples(horizon, period);
-}
-
 /// @return what is the matter, if anything.
 Shortcoming fill(const Records& records, const CompareOptions& options, Comparison& comparison) {
   const auto report = [&](double share) {
@@ -180,8 +175,8 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   auto compared = compareSegments(records, comparison.model, *initial);
   if (!compared) return Shortcoming::kNoStableFit;
   comparison.segments = std::move(compared->first);
-  const auto free_run = errorOf(joined(mapped(comparison.segments, &ComparedSegment::measured)),
-                                joined(mapped(comparison.segments, &ComparedSegment::predicted)));
+  const auto free_run = errorOf(mapped(comparison.segments, &ComparedSegment::measured),
+                                mapped(comparison.segments, &ComparedSegment::predicted));
   if (!free_run) return Shortcoming::kTooShort;
   if (options.fit && free_run->fit_percent < 0.0) return Shortcoming::kNoStableFit;  // worse than a constant
   comparison.free_run = *free_run;
@@ -201,7 +196,11 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
 
   IntegralFilterOptions filter;
   filter.period = records.front()->period();
-  filter.horizon_samples = comparison.horizon_samples = horizonFor(options, comparison.model, filter.period);
+  const LinearStrut strut = comparison.model.linearPart();
+  filter.horizon_samples = comparison.horizon_samples =
+      options.horizon_samples
+          ? *options.horizon_samples
+          : horizonSamples(proposeHorizon(strut.damping_to_mass, strut.stiffness_to_mass), filter.period);
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
@@ -214,7 +213,6 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.noise_floor = floor.rms;
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
-  const LinearStrut strut = comparison.model.linearPart();
   std::optional<ResidualViews> views = viewResidual(comparison.segments, strut, floor);
   if (!views) return Shortcoming::kTooShort;
   comparison.views = std::move(*views);
