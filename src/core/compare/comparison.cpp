@@ -50,36 +50,6 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
   return segment;
 }
 
-}  // namespace
-
-std::vector<double> ComparedSegment::residuals() const {
-  std::vector<double> all(size());
-  for (std::size_t k = 0; k < size(); ++k) all[k] = residual(k);
-  return all;
-}
-
-std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegments(
-    const Records& records, const StrutModel& model, const std::vector<StrutState>& initial) {
-  std::vector<ComparedSegment> segments;
-  FreeMotion motion;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (const DriveSegment& source : records[r]->segments()) {
-      std::vector<double> predicted;
-      motion.emplace_back();
-      if (!runFree(model, source, initial[segments.size()], predicted, &motion.back())) return std::nullopt;
-      segments.push_back(makeSegment(model, source, motion.back()));
-      segments.back().drive = r;
-      segments.back().predicted = std::move(predicted);
-    }
-  const double mean = meanOf(mapped(segments, &ComparedSegment::residuals));
-  const Segments sources = segmentsOf(records);
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
-  return std::pair(std::move(segments), std::move(motion));
-}
-
-namespace {
-
 /// @return nothing if the measurement does not move, or there is none.
 std::optional<PredictionError> errorOf(const Residuals& measurement, const Residuals& prediction) {
   const Eigen::VectorXd measured = joined(measurement), predicted = joined(prediction);
@@ -223,6 +193,32 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
 }
 
 }  // namespace
+
+std::vector<double> ComparedSegment::residuals() const {
+  std::vector<double> all(size());
+  for (std::size_t k = 0; k < size(); ++k) all[k] = residual(k);
+  return all;
+}
+
+std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegments(
+    const Records& records, const StrutModel& model, const std::vector<StrutState>& initial) {
+  std::vector<ComparedSegment> segments;
+  FreeMotion motion;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (const DriveSegment& source : records[r]->segments()) {
+      std::vector<double> predicted;
+      motion.emplace_back();
+      if (!runFree(model, source, initial[segments.size()], predicted, &motion.back())) return std::nullopt;
+      segments.push_back(makeSegment(model, source, motion.back()));
+      segments.back().drive = r;
+      segments.back().predicted = std::move(predicted);
+    }
+  const double mean = meanOf(mapped(segments, &ComparedSegment::residuals));
+  const Segments sources = segmentsOf(records);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
+  return std::pair(std::move(segments), std::move(motion));
+}
 
 Comparison compareModel(const Records& records, const StrutModel& model, const CompareOptions& options) {
   Comparison comparison;

@@ -17,8 +17,8 @@ struct Sample {
 };
 
 double StrutMotion::*memberOf(ForceVariable variable) {
-  constexpr std::array kMembers{&StrutMotion::travel, &StrutMotion::travel_rate, &StrutMotion::time};
-  return kMembers[static_cast<std::size_t>(variable)];
+  constexpr std::array members{&StrutMotion::travel, &StrutMotion::travel_rate, &StrutMotion::time};
+  return members[static_cast<std::size_t>(variable)];
 }
 
 double valueOf(const Sample& sample, ForceVariable variable) { return sample.motion.*memberOf(variable); }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "bin_range.h"
-#include "residual_correlation.h"
 #include "residual_series.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
 #include "suspension_health_monitor/internal/compare/tuning.h"

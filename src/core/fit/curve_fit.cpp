@@ -1,21 +1,130 @@
 #include "suspension_health_monitor/internal/fit/curve_fit.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "nodal_law.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "whitening.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+/// A piecewise linear function of one variable that is 0 at 0, and goes on straight beyond its ends.
+struct NodalLaw {
+  std::vector<double> nodes, values;
+
+  /// @param per_side  even nodes on either side of 0, up to `most`.
+  template <class Law>
+  static NodalLaw sampled(double most, int per_side, const Law& law) {
+    NodalLaw sampled;
+    for (int i = -per_side; i <= per_side; ++i) {
+      sampled.nodes.push_back(most * i / per_side);
+      sampled.values.push_back(i == 0 ? 0.0 : law(sampled.nodes.back()));
+    }
+    return sampled;
+  }
+
+  /// Calls take(node, weight) for the two nodes that decide f(x).
+  template <class Take>
+  void forNodesAt(double x, const Take& take) const {
+    const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
+    const auto i = static_cast<std::size_t>(above - nodes.begin());
+    const double share = (x - nodes[i - 1]) / (nodes[i] - nodes[i - 1]);
+    take(i - 1, 1.0 - share);
+    take(i, share);
+  }
+
+  double at(double x) const {
+    double sum = 0.0;
+    forNodesAt(x, [&](std::size_t i, double weight) { sum += weight * values[i]; });
+    return sum;
+  }
+
+  /// Weights of three neighbours' values in the change of slope at the middle one.
+  std::array<double, 3> bendWeights(std::size_t i) const {
+    const double before = 1.0 / (nodes[i] - nodes[i - 1]), after = 1.0 / (nodes[i + 1] - nodes[i]);
+    return {before, -before - after, after};
+  }
+
+  double bend(std::size_t i) const {
+    const auto [before, here, after] = bendWeights(i);
+    return before * values[i - 1] + here * values[i] + after * values[i + 1];
+  }
+
+  /// The same function with more nodes: in the middle of cells that have an end where splits(node).
+  template <class Splits>
+  NodalLaw refined(const Splits& splits) const {
+    NodalLaw finer;
+    const auto add = [&](double x, double value) {
+      finer.nodes.push_back(x);
+      finer.values.push_back(value);
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (i > 0 && (splits(i - 1) || splits(i)))
+        add(0.5 * (nodes[i - 1] + nodes[i]), 0.5 * (values[i - 1] + values[i]));
+      add(nodes[i], values[i]);
+    }
+    return finer;
+  }
+};
+
+/// Order of the filter: two for each resonance of body and wheel, and for filters of the sensors.
+constexpr Eigen::Index kWhitening = 10;
+
+/// A series behind an FIR filter that begins where it has its past; 0 before.
+/// @param taps  the newest sample's last.
+Eigen::VectorXd filtered(const Eigen::VectorXd& series, const Eigen::VectorXd& taps) {
+  const Eigen::Index n = series.size() - taps.size() + 1;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(series.size());
+  for (Eigen::Index j = 0; j < taps.size(); ++j) result.tail(n) += taps[j] * series.segment(j, n);
+  return result;
+}
+
+/// Prediction error filter of an autoregressive model of a series, by least squares.
+/// @param counts  1 where a sample and those before it are of one stretch, else 0.
+Eigen::VectorXd whiteningOf(const Eigen::VectorXd& series, const Eigen::VectorXd& counts) {
+  const Eigen::Index n = series.size() - kWhitening;
+  Eigen::MatrixXd past(n, kWhitening);
+  for (Eigen::Index j = 0; j < kWhitening; ++j) past.col(j) = counts.tail(n).cwiseProduct(series.segment(j, n));
+  Eigen::MatrixXd normal = past.transpose() * past;
+  normal.diagonal().array() += kRounding * normal.trace() + std::numeric_limits<double>::min();
+  Eigen::VectorXd taps(kWhitening + 1);
+  taps << -solveSymmetric(normal, past.transpose() * series.tail(n)), 1.0;
+  return taps;
+}
+
+/// @param counts  1 where a whitened sample counts, else 0.  @param accuracy  below which no error is [m/s^2].
+/// @return one over the variance; less for outliers; 0 for what does not count.
+Eigen::VectorXd robustWeights(const Eigen::VectorXd& white, const Eigen::VectorXd& counts, double accuracy) {
+  std::vector<double> counted;
+  for (Eigen::Index k = 0; k < white.size(); ++k)
+    if (counts[k] > 0.0) counted.push_back(white[k]);
+  const double limit = kOutlierScale * std::max(robustDeviation(counted), accuracy);
+  const Eigen::VectorXd weights = counts.array() / (1.0 + (white.array() / limit).square()).sqrt();
+  const double variance = weights.dot(white.cwiseAbs2()) / weights.sum();
+  return weights / std::max(variance, square(accuracy));
+}
+
+/// Sum of the squared scores of stretches: it tells the scatter of a solution where noise is not alike at all times.
+/// @param weighted  what the solution leaves, weighted.  @param length  of a stretch.
+Eigen::MatrixXd sumOfScores(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weighted, Eigen::Index length) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  for (Eigen::Index k = 0; k < columns.rows(); k += length) {
+    const Eigen::Index count = std::min(length, columns.rows() - k);
+    const Eigen::VectorXd score = columns.middleRows(k, count).transpose() * weighted.segment(k, count);
+    sum.noalias() += score * score.transpose();
+  }
+  return sum;
+}
 
 constexpr int kFirstNodes = 8;             // per side: half an rms apart, as the extremes of a drive are some four
 constexpr int kRefinements = 4;            // to a sixteenth of that: a thirtieth of the rms
