@@ -6,12 +6,6 @@
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-// Within a factor of two of what it was, so that the model stays stable.
-double withinReach(double value, double before) { return std::clamp(value, 0.5 * before, 2.0 * before); }
-
-}  // namespace
 
 bool WindowEstimate::isUsable() const {
   return theta.allFinite() && covariance.allFinite() && theta[kBlockDamping] > 0.0 && theta[kBlockStiffness] > 0.0 &&
@@ -52,11 +46,11 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
       sum(prior);
       const NormalEquations equations(normal_, right_);
       if (!equations.is_solvable) break;
-      const double b1 = result.theta[kBlockDamping], b0 = result.theta[kBlockStiffness];
+      const Eigen::Vector2d before = result.theta.head<2>();
       result.theta = equations.solution;
       solved_ = result.theta.head<2>();
-      result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
-      result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
+      for (const int n : {kBlockDamping, kBlockStiffness})  // within a factor of two, so that the model stays stable
+        result.theta[n] = std::clamp(solved_[n], 0.5 * before[n], 2.0 * before[n]);
       result.theta[kBlockWheelShare] =
           std::clamp(result.theta[kBlockWheelShare], kBlockTuning.least_share, 1.0 - kBlockTuning.least_share);
     }

@@ -119,15 +119,14 @@ std::vector<std::vector<std::pair<double, double>>> heldOutSpans(const Records& 
   std::vector<std::vector<std::pair<double, double>>> spans;
   auto mask = held_out.training.begin();
   for (const DriveRecord* record : records) {
-    spans.emplace_back();
+    auto& of_drive = spans.emplace_back();
     for (const DriveSegment& segment : record->segments()) {
-      for (auto first = mask->begin(); (first = std::find(first, mask->end(), 0)) != mask->end();) {
-        const auto end = std::find(first, mask->end(), 1);
-        const auto index = [&](auto at) { return static_cast<std::size_t>(at - mask->begin()); };
-        spans.back().emplace_back(segment.time(index(first)), segment.time(index(end) - 1));
-        first = end;
+      const SampleMask& fitted = *mask++;
+      for (std::size_t k = 0; k < segment.size(); ++k) {
+        if (fitted[k] != 0) continue;
+        if (k == 0 || fitted[k - 1] != 0) of_drive.emplace_back(segment.time(k), 0.0);
+        of_drive.back().second = segment.time(k);
       }
-      ++mask;
     }
   }
   return spans;

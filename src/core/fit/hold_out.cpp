@@ -8,11 +8,8 @@
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
-
-}  // namespace
 
 PairedTest testPaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
   using Series = Eigen::Map<const Eigen::ArrayXd>;
@@ -52,12 +49,11 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
         sum += segment.sprung[k];
         squares += square(segment.sprung[k]);
         result.samples_ += 1.0;
-        const bool goes_on = !result.stretches_.empty() && result.stretches_.back().segment == index &&
-                             result.stretches_.back().last == k && k - result.stretches_.back().first < period;
-        if (goes_on)
-          result.stretches_.back().last = k + 1;
-        else
-          result.stretches_.push_back({index, k, k + 1});
+        std::vector<HoldOut::Stretch>& stretches = result.stretches_;
+        const bool goes_on = !stretches.empty() && stretches.back().segment == index && stretches.back().last == k &&
+                             k - stretches.back().first < period;
+        if (!goes_on) stretches.push_back({index, k, k});
+        stretches.back().last = k + 1;
       }
       position += segment.size();
     }

@@ -6,11 +6,8 @@
 #include "suspension_health_monitor/internal/signal/filters.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kMotionStep = 1e-4;  // of the rms motion, for the slopes of the force
-
-}  // namespace
 
 MotionScale scaleOf(const SegmentedMotion& motion, double stiffness_to_mass) {
   double travel = 0.0, travel_rate = 0.0;

@@ -7,13 +7,10 @@
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kForgotten = 1.0 / 3.0;  // of the natural frequency: what is slower is not integrated
 constexpr double kPadding = 6.0;          // times of the slowest frequency that is: ends do not reach each other,
                                           // or as many samples as there are: then no integral reaches further
-
-}  // namespace
 
 std::pair<std::vector<double>, std::vector<double>> motionError(const std::vector<double>& residual, double mean,
                                                                 double period, double stiffness_to_mass) {

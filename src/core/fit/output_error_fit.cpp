@@ -380,14 +380,13 @@ std::optional<std::vector<StrutState>> estimateInitialStates(const Records& reco
 
 std::array<double, kNumBodyChannels> bodySizes(const Segments& segments) {
   std::array<double, kNumBodyChannels> sizes{};
-  for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
-    double count = 0.0;
-    for (const DriveSegment* segment : segments) {
+  double count = 0.0;
+  for (const DriveSegment* segment : segments) {
+    count += static_cast<double>(segment->size());
+    for (std::size_t c = 0; c < kNumBodyChannels; ++c)
       for (const double value : segment->body[c]) sizes[c] += square(value);
-      count += static_cast<double>(segment->size());
-    }
-    sizes[c] = std::sqrt(sizes[c] / count);
   }
+  for (double& size : sizes) size = std::sqrt(size / count);
   return sizes;
 }
 

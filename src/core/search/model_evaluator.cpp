@@ -42,6 +42,14 @@ void forEachInParallel(std::size_t count, int threads, const Work& work, const T
   }
 }
 
+EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) {
+  EvaluatedModel nothing = before;
+  nothing.ranked.fitted = nothing.ranked.significant = false;
+  nothing.ranked.failure = failure;
+  nothing.ranked.error_removed_percent = nothing.ranked.significance = nothing.training_gain = 0.0;
+  return nothing;
+}
+
 }  // namespace
 
 std::size_t complexity(const StrutModel& model) { return numbersOf(model).size() - 2; }
@@ -93,14 +101,6 @@ FitFailure ModelEvaluator::againstPhysics(const ModelFit& fit) const {
   const bool is_spring = fit.model.stiffness_to_mass > normalQuantile(kFalseAlarm) * fit.stddev[1];
   if (fit.model.effects.size() > given && !is_spring) return FitFailure::kNoSpring;
   return FitFailure::kNone;
-}
-
-EvaluatedModel ModelEvaluator::failed(const EvaluatedModel& before, FitFailure failure) const {
-  EvaluatedModel nothing = before;
-  nothing.ranked.fitted = nothing.ranked.significant = false;
-  nothing.ranked.failure = failure;
-  nothing.ranked.error_removed_percent = nothing.ranked.significance = nothing.training_gain = 0.0;
-  return nothing;
 }
 
 EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
@@ -168,7 +168,7 @@ std::optional<EvaluatedModel> ModelEvaluator::screen(const MeasurementEffect& re
                                                      const EvaluatedModel& current) const {
   std::optional<ScreenedModel> screened = screening.screen(reading);
   if (lagged_ && lagged_->reading.front().effect.name == reading.name) {
-    StrutModel model = screening.model();
+    StrutModel model = current.fit.model;
     model.damping_to_mass = lagged_->damping_to_mass;
     model.stiffness_to_mass = lagged_->stiffness_to_mass;
     model.reading.push_back(lagged_->reading.front());

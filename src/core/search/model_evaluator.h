@@ -88,7 +88,6 @@ class ModelEvaluator {
   EvaluatedModel expected(const std::string& added, const ScreenedModel& screened, const EvaluatedModel& current) const;
   EvaluatedModel weighed(const StrutModel& model, const Residuals& residuals) const;
   void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
-  EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
   FitFailure againstPhysics(const ModelFit& fit) const;
   bool isConfoundedWithFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
   bool wanders(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
