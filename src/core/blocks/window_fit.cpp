@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {

@@ -190,7 +190,7 @@ class CurveFit {
           momentary_.empty() ? 0.0 : sumOf(momentary_, m) - alone(m.travel, 0.0) - alone(0.0, m.travel_rate);
       return joint + laws_[kDamper].at(m.travel_rate) + laws_[kSpring].at(m.travel);
     };
-    countSamples(response.motion().ends);
+    countSamples(response.motion().begins);
   }
 
   CurveFit(const CurveFit&) = delete;  // the model calls this object
@@ -259,18 +259,14 @@ class CurveFit {
   }
 
   // Not those that a wrong initial state or the filters' beginning is in.
-  void countSamples(const std::vector<std::size_t>& ends) {
+  void countSamples(const std::vector<std::size_t>& begins) {
     const double period = records_.front()->period();
     const double settling = -std::log(kTransient) / slowestDecay(slopes_[kDamper], slopes_[kSpring]);  // [s]
     const auto skipped = std::max(kWhitening, static_cast<Eigen::Index>(settling / period));
     cluster_ = static_cast<Eigen::Index>(kPeriodsOfCluster * 2.0 * M_PI / std::sqrt(slopes_[kSpring]) / period);
-    counts_.setOnes(ends.back());
-    Eigen::Index begin = 0;
-    for (const std::size_t end : ends) {
-      const Eigen::Index size = end - begin;
-      counts_.segment(begin, std::min(size, skipped)).setZero();
-      begin += size;
-    }
+    counts_.setOnes(begins.back());
+    for (std::size_t s = 0; s + 1 < begins.size(); ++s)
+      counts_.segment(begins[s], std::min<Eigen::Index>(begins[s + 1] - begins[s], skipped)).setZero();
   }
 
   bool run() {

@@ -59,7 +59,7 @@ class RowStart {
           const bool is_whole = k >= first + segment.lead() && k + segment.lead() < end;  // what the filter reaches
           weight.push_back(is_whole ? held_out.training[s][k] : 0.0);
         }
-        motion_.ends.push_back(motion_.samples.size());
+        motion_.begins.push_back(motion_.samples.size());
         taps_.push_back(segment.taps);
       }
     }
@@ -101,11 +101,9 @@ class RowStart {
 
  private:
   void passLow(Eigen::Ref<Eigen::VectorXd> column) const {
-    std::size_t begin = 0;
     for (std::size_t i = 0; i < taps_.size(); ++i) {
-      auto stretch = column.segment(begin, motion_.ends[i] - begin);
+      auto stretch = column.segment(motion_.begins[i], motion_.begins[i + 1] - motion_.begins[i]);
       stretch = lowPassed(taps_[i], stretch);
-      begin = motion_.ends[i];
     }
   }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
