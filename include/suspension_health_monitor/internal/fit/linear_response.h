@@ -11,7 +11,7 @@ namespace suspension_health_monitor {
 struct SegmentedMotion {
   std::vector<StrutMotion> samples;    ///< without memory
   std::vector<std::size_t> begins{0};  ///< of the segments, and the end of the last one
-  std::vector<double> rests;         ///< [s], rests[i] between segment i and the next; empty: unknown
+  std::vector<double> rests;           ///< [s], rests[i] between segment i and the next; empty: unknown
 };
 
 /// @return rms of travel and travel rate, and the natural time of a strut.
