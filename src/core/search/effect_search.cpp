@@ -180,8 +180,9 @@ double shareOf(const EvaluatedModel& before, const EvaluatedModel& after, double
 
 class Search {
  public:
-  Search(const Records& records, const DiagnoseOptions& options, const ModelEvaluator& evaluator)
-      : records_(records), options_(options), evaluator_(evaluator) {}
+  Search(const Records& records, const HoldOut& held_out, const DiagnoseOptions& options,
+         const ModelEvaluator& evaluator)
+      : records_(records), held_out_(held_out), options_(options), evaluator_(evaluator) {}
 
   /// @param keeps  whether a search goes on with the rough model as it is where no fit comes of it.
   SearchResult run(const ModelFit& rough, bool keeps) {
@@ -193,9 +194,9 @@ class Search {
     }
     report(kStarted);
     result_.base = base_.ranked;
-    result_.base_fit_percent = evaluator_.heldOut().fitPercent(base_.ranked.held_out_rmse);
+    result_.base_fit_percent = held_out_.fitPercent(base_.ranked.held_out_rmse);
     result_.noise_floor = estimateNoiseFloor(records_, base_.ranked.model);
-    turning_share_ = shareOfTurning(records_, evaluator_.heldOut(), evaluator_.motionOf(base_));
+    turning_share_ = shareOfTurning(records_, held_out_, LinearResponse(records_, base_.fit));
     EvaluatedModel last = extend(base_, 0);
     if (namesBeyond(base_, last).size() > 1) last = extendRivals(last);
     last = refine(last);
@@ -225,7 +226,7 @@ class Search {
       return;
     }
     if (selection.group.size() > 1)
-      result_.separating.push_back(separatingDrive(evaluator_.motionOf(selection.chosen).motion(), selection));
+      result_.separating.push_back(separatingDrive(LinearResponse(records_, selection.chosen.fit).motion(), selection));
   }
 
   // Forward selection: the best addition as long as it pays.
@@ -245,7 +246,7 @@ class Search {
       // Whatever a free run leaves of data that it was not fitted to is above the floor.
       result_.noise_floor = std::min(result_.noise_floor, ranking.front().ranked.held_out_rmse);
       if (!ranking.front().ranked.significant) break;
-      const Selection selection = select(ranking, evaluator_.heldOut());
+      const Selection selection = select(ranking, held_out_);
       if (round == 0) {
         suspect_ = selection;
         rivals_ = std::move(ranking);
@@ -302,7 +303,7 @@ class Search {
       if (!without.ranked.fitted) continue;
       const std::vector<EvaluatedModel> ranking = evaluator_.rankAdditions(without, tick);
       if (ranking.empty() || !ranking.front().ranked.fitted) continue;
-      const Selection selection = select(ranking, evaluator_.heldOut());
+      const Selection selection = select(ranking, held_out_);
       noteGroup(selection);
       if (!contains(selection.group, name) ||
           complexity(selection.chosen.ranked.model) < complexity(current.ranked.model))
@@ -363,7 +364,8 @@ class Search {
     if (!suspect_) result_.noise_floor = floorOf(base_, result_.noise_floor);  // else a law takes a part of it
     result_.structured_share = structuredShare(base_.ranked.held_out_rmse, result_.noise_floor);
     if (result_.structured_share > 0.0)
-      result_.surface_share = std::min(1.0, evaluator_.surfaceGain(base_) / result_.structured_share);
+      result_.surface_share =
+          std::min(1.0, Screening(records_, held_out_, base_.fit).surfaceGain() / result_.structured_share);
     const std::size_t names = namesBeyond(base_, last).size();
     const EvaluatedModel& before = names > 1 ? suspect_->chosen : base_;
     if (names > 0 && isExplained(last, before)) return name(Verdict::kEffectFound, last);
@@ -371,7 +373,7 @@ class Search {
     // A suspect makes the error smaller by more than half (kMajority of its mean square).
     if (suspect_ && !mayBeOtherStruts(suspect_->chosen) && shareOf(base_, suspect_->chosen, 0.0) > kMajority) {
       noteGroup(*suspect_);
-      result_.remainder_surface_share = evaluator_.surfaceGain(suspect_->chosen);
+      result_.remainder_surface_share = Screening(records_, held_out_, suspect_->chosen.fit).surfaceGain();
       return name(Verdict::kSuspect, suspect_->chosen);
     }
     const bool structured = suspect_ || isStructured(base_.ranked.held_out_rmse, result_.noise_floor);
@@ -388,7 +390,7 @@ class Search {
     result_.selected = namesBeyond(base_, model);
     result_.explained_share = std::min(1.0, shareOf(base_, model, result_.noise_floor));
     result_.extended = model.ranked;
-    result_.extended_fit_percent = evaluator_.heldOut().fitPercent(model.ranked.held_out_rmse);
+    result_.extended_fit_percent = held_out_.fitPercent(model.ranked.held_out_rmse);
     result_.final_fit = finalFit(model);
     if (result_.final_fit)
       result_.final_fit->model.is_complete = !isStructured(model.ranked.held_out_rmse, result_.noise_floor);
@@ -401,6 +403,7 @@ class Search {
   }
 
   const Records& records_;
+  const HoldOut& held_out_;
   const DiagnoseOptions& options_;
   const ModelEvaluator& evaluator_;
   EvaluatedModel base_;
@@ -429,7 +432,7 @@ SearchResult searchEffects(const Records& records, const StrutModel& start, cons
   if (!held_out) return without(Shortcoming::kTooShort);
   const ModelEvaluator evaluator(records, *held_out, outlierOf(*rough), start.effects.size() + options.most_forces,
                                  options, lagged);
-  return Search(records, options, evaluator).run(*rough, lagged.has_value());
+  return Search(records, *held_out, options, evaluator).run(*rough, lagged.has_value());
 }
 
 }  // namespace suspension_health_monitor
