@@ -43,10 +43,10 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
     for (int i = 0; i < kBlockTuning.weightings; ++i) {
       measureNoise(result.theta);
       sum(prior);
-      const NormalEquations equations(normal_, right_);
-      if (!equations.is_solvable) break;
+      const BlockVector solution = solvedNormal(normal_, right_).second;
+      if (!solution.allFinite()) break;
       const Eigen::Vector2d before = result.theta.head<2>();
-      result.theta = equations.solution;
+      result.theta = solution;
       solved_ = result.theta.head<2>();
       for (const int n : {kBlockDamping, kBlockStiffness})  // within a factor of two, so that the model stays stable
         result.theta[n] = std::clamp(solved_[n], 0.5 * before[n], 2.0 * before[n]);
@@ -132,16 +132,16 @@ void WindowFit::sum(const BlockPrior& prior) {
 void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                          WindowEstimate& result) {
   sum(prior);
-  const NormalEquations equations(normal_, right_);
-  result.covariance = covarianceByNoise(spread_, equations.inverse, prior, blocks_);
-  if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
-  result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
+  const auto [inverse, solution] = solvedNormal(normal_, right_);
+  result.covariance = covarianceByNoise(spread_, inverse, prior, blocks_);
+  if (!solution.allFinite()) result.covariance.setConstant(std::numeric_limits<double>::infinity());
+  result.inflation = std::max(least_inflation, inflation(blocks, result, inverse, prior));
   result.covariance *= result.inflation;
   result.is_settled =
       ((solved_ - result.theta.head<2>()).array().square() <= result.covariance.diagonal().head<2>().array()).all();
   result.noise = weights_.noise;
   result.alike = 0.0;
-  if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
+  if (!wheel_noise_.empty()) widenByAlike(inverse, result);
 
   using Band = StrutBlock::Band;
   Band::Powers powers = Band::Powers::Zero();
