@@ -32,9 +32,8 @@ struct ResidualSeries {
 
 /// @param segments  those of the series.
 /// @return nothing if not even two windows fit into the segments.
-std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series,
-                                                  const std::vector<ComparedSegment>& segments,
-                                                  const LinearStrut& strut, const NoiseFloor& noise_floor) {
+std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series, const std::vector<ComparedSegment>& segments,
+                                           const LinearStrut& strut, const NoiseFloor& noise_floor) {
   const std::vector<std::size_t> sizes = sizesOf(segments);
   const std::size_t length = Periodogram::lengthFor(sizes, series.natural_period);
   const std::size_t windows = Periodogram::windowsIn(sizes, length);
@@ -79,7 +78,7 @@ std::optional<ResidualSpectrum> spectrumOf(const ResidualSeries& series,
 
 const double kHalfBand =
     normalQuantile(0.5 * kCompareTuning.lags_outside);  // half the band's width, in standard deviations
-const double kUnlikely = normalQuantile(0.01);   // of the number of lags outside
+const double kUnlikely = normalQuantile(0.01);          // of the number of lags outside
 
 /// Response of z'' to a unit sample of w'' through G(s) = (b1 s + b0) / (s^2 + b1 s + b0): e^{At}, held over a sample.
 Eigen::VectorXd impulseResponse(const LinearStrut& strut, double period, std::size_t length) {
@@ -139,9 +138,8 @@ auto crossCorrelation(const ResidualSeries& series, const Eigen::VectorXd& a, co
 }
 
 /// @return autocorrelation of the residual, and its correlation with w'', each with the bands of ResidualCorrelation.
-std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const ResidualSeries& series,
-                                                                     const LinearStrut& strut,
-                                                                     const NoiseFloor& noise_floor) {
+std::pair<ResidualCorrelation, ResidualCorrelation> correlate(const ResidualSeries& series, const LinearStrut& strut,
+                                                              const NoiseFloor& noise_floor) {
   const auto count = static_cast<double>(series.size());
   const int lags = static_cast<int>(
       std::min(std::clamp(std::round(series.natural_period), kCompareTuning.fewest_lags, kCompareTuning.most_lags),
@@ -196,8 +194,7 @@ double memoryOf(const ResidualSeries& series, const Eigen::VectorXd& values) {
 }
 
 /// @return nothing if nothing moves.
-std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments,
-                                                const LinearStrut& strut) {
+std::optional<ResidualSeries> makeSeries(const std::vector<ComparedSegment>& segments, const LinearStrut& strut) {
   ResidualSeries series;
   for (const ComparedSegment& segment : segments) {
     series.begins.push_back(series.begins.back() + segment.size());

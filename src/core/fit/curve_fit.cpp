@@ -18,16 +18,28 @@
 namespace suspension_health_monitor {
 namespace {
 
+constexpr int kFirstNodes = 8;             // per side: half an rms apart, as the extremes of a drive are some four
+constexpr int kRefinements = 4;            // to a sixteenth of that: a thirtieth of the rms
+constexpr std::size_t kMostNodes = 50;     // of a law: it does not bend everywhere
+constexpr double kTolerated = 0.5;         // misfit over standard deviation: adds an eighth of the variance
+constexpr double kSteepest = 10.0;         // change of slope, over the slope, that is not unusual (an end stop)
+constexpr int kMostSteps = 8;              // some three per refinement
+constexpr int kMostHalvings = 6;           // of a step after which the model runs away
+constexpr double kTransient = 1e-3;        // share of a wrong initial state that the first sample that counts still has
+constexpr double kPeriodsOfCluster = 2.0;  // noise that a strut passes is forgotten after a natural period
+constexpr Eigen::Index kRowsPerColumn = 20;  // fewest samples
+constexpr Eigen::Index kWhitening = 10;  // order: two for each resonance of body and wheel, and for sensors' filters
+
 /// A piecewise linear function of one variable that is 0 at 0, and goes on straight beyond its ends.
 struct NodalLaw {
   std::vector<double> nodes, values;
 
-  /// @param per_side  even nodes on either side of 0, up to `most`.
+  /// @return a law with even nodes on either side of 0, up to `most`.
   template <class Law>
-  static NodalLaw sampled(double most, int per_side, const Law& law) {
+  static NodalLaw sampled(double most, const Law& law) {
     NodalLaw sampled;
-    for (int i = -per_side; i <= per_side; ++i) {
-      sampled.nodes.push_back(most * i / per_side);
+    for (int i = -kFirstNodes; i <= kFirstNodes; ++i) {
+      sampled.nodes.push_back(most * i / kFirstNodes);
       sampled.values.push_back(i == 0 ? 0.0 : law(sampled.nodes.back()));
     }
     return sampled;
@@ -50,14 +62,14 @@ struct NodalLaw {
   }
 
   /// Weights of three neighbours' values in the change of slope at the middle one.
-  std::array<double, 3> bendWeights(std::size_t i) const {
+  Eigen::Vector3d bendWeights(std::size_t i) const {
     const double before = 1.0 / (nodes[i] - nodes[i - 1]), after = 1.0 / (nodes[i + 1] - nodes[i]);
     return {before, -before - after, after};
   }
 
   double bend(std::size_t i) const {
-    const auto [before, here, after] = bendWeights(i);
-    return before * values[i - 1] + here * values[i] + after * values[i + 1];
+    const Eigen::Vector3d weights = bendWeights(i);
+    return weights[0] * values[i - 1] + weights[1] * values[i] + weights[2] * values[i + 1];
   }
 
   /// The same function with more nodes: in the middle of cells that have an end where splits(node).
@@ -76,9 +88,6 @@ struct NodalLaw {
     return finer;
   }
 };
-
-/// Order of the filter: two for each resonance of body and wheel, and for filters of the sensors.
-constexpr Eigen::Index kWhitening = 10;
 
 /// A series behind an FIR filter that begins where it has its past; 0 before.
 /// @param taps  the newest sample's last.
@@ -126,17 +135,6 @@ Eigen::MatrixXd sumOfScores(const Eigen::MatrixXd& columns, const Eigen::VectorX
   return sum;
 }
 
-constexpr int kFirstNodes = 8;             // per side: half an rms apart, as the extremes of a drive are some four
-constexpr int kRefinements = 4;            // to a sixteenth of that: a thirtieth of the rms
-constexpr std::size_t kMostNodes = 50;     // of a law: it does not bend everywhere
-constexpr double kTolerated = 0.5;         // misfit over standard deviation: adds an eighth of the variance
-constexpr double kSteepest = 10.0;         // change of slope, over the slope, that is not unusual (an end stop)
-constexpr int kMostSteps = 8;              // some three per refinement
-constexpr int kMostHalvings = 6;           // of a step after which the model runs away
-constexpr double kTransient = 1e-3;        // share of a wrong initial state that the first sample that counts still has
-constexpr double kPeriodsOfCluster = 2.0;  // noise that a strut passes is forgotten after a natural period
-constexpr Eigen::Index kRowsPerColumn = 20;  // fewest samples
-
 enum Which : std::size_t { kDamper, kSpring };
 
 double variableOf(const StrutMotion& motion, std::size_t which) {
@@ -159,18 +157,15 @@ double sumOf(const std::vector<ActiveEffect>& effects, const StrutMotion& motion
   return sum;
 }
 
-/// b1 and b0. A strut without a damper is given a tenth of the critical damping, so that its damper's law has a scale.
-std::array<double, 2> slopesOf(const StrutModel& model) {
-  return {std::max(model.damping_to_mass, 0.2 * std::sqrt(model.stiffness_to_mass)), model.stiffness_to_mass};
-}
-
 /// The fit of both laws and of an offset between the sensors, by Gauss-Newton steps.
 class CurveFit {
  public:
   /// @param start  a model as it is, run from rest.
   CurveFit(const Records& records, const ModelFit& start)
       : records_(records),
-        slopes_{slopesOf(start.model)},
+        // A strut without a damper is given a tenth of the critical damping, so that its damper's law has a scale.
+        slopes_{std::max(start.model.damping_to_mass, 0.2 * std::sqrt(start.model.stiffness_to_mass)),
+                start.model.stiffness_to_mass},
         rest_(start.model),
         momentary_(takeMomentary(rest_)),
         fit_(start),
@@ -180,9 +175,8 @@ class CurveFit {
     std::array<double, 2> most{};
     for (const StrutMotion& motion : response.motion().samples)
       for (const std::size_t w : {kDamper, kSpring}) most[w] = std::max(most[w], std::abs(variableOf(motion, w)));
-    laws_ = {
-        NodalLaw::sampled(most[kDamper], kFirstNodes, [&](double v) { return slopes_[kDamper] * v + alone(0.0, v); }),
-        NodalLaw::sampled(most[kSpring], kFirstNodes, [&](double d) { return slopes_[kSpring] * d + alone(d, 0.0); })};
+    laws_ = {NodalLaw::sampled(most[kDamper], [&](double v) { return slopes_[kDamper] * v + alone(0.0, v); }),
+             NodalLaw::sampled(most[kSpring], [&](double d) { return slopes_[kSpring] * d + alone(d, 0.0); })};
     rest_.damping_to_mass = rest_.stiffness_to_mass = 0.0;
     rest_.effects.push_back({{}, 1.0, {}});
     rest_.effects.back().effect.force = [this](const StrutMotion& m, const double*) {
@@ -252,7 +246,7 @@ class CurveFit {
   double misfit(std::size_t which, std::size_t node) const {
     const NodalLaw& law = laws_[which];
     if (node == 0 || node + 1 >= law.nodes.size()) return 0.0;
-    const Eigen::Vector3d weights(law.bendWeights(node).data());
+    const Eigen::Vector3d weights = law.bendWeights(node);
     const Eigen::Index first = column(which, node - 1);
     const double noise = std::sqrt(weights.dot(inverse_.block<3, 3>(first, first) * weights));
     return std::max(0.0, std::abs(law.bend(node)) - noise) * (law.nodes[node + 1] - law.nodes[node - 1]) / 24.0;
@@ -302,8 +296,7 @@ class CurveFit {
   void addPrior(Eigen::MatrixXd& normal, Eigen::VectorXd& right) const {
     for (const std::size_t w : {kDamper, kSpring})
       for (std::size_t i = 1; i + 1 < laws_[w].nodes.size(); ++i) {
-        const std::array<double, 3> weights = laws_[w].bendWeights(i);
-        const Eigen::Vector3d row = Eigen::Vector3d(weights.data()) / (kSteepest * slopes_[w]);
+        const Eigen::Vector3d row = laws_[w].bendWeights(i) / (kSteepest * slopes_[w]);
         normal.block<3, 3>(column(w, i - 1), column(w, i - 1)) += row * row.transpose();
         right.segment<3>(column(w, i - 1)) -= row * (laws_[w].bend(i) / (kSteepest * slopes_[w]));
       }
