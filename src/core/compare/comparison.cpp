@@ -155,7 +155,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   double by_law = 0.0, law_leaves = 0.0;
   if (const auto held_out = splitHoldOut(records, comparison.model.stiffness_to_mass)) {
     if (const auto fit = judgedFit(records, *held_out, options, *initial, comparison)) {
-      comparison.held_out_rmse = held_out->rmse(held_out->stretchErrors(fit->residuals));
+      comparison.held_out_rmse = held_out->rmse(fit->residuals);
       by_law = Screening(records, *held_out, *fit).surfaceGain();
       law_leaves = *comparison.held_out_rmse * std::sqrt(1.0 - by_law);
     }

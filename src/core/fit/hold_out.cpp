@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -64,10 +63,6 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
   return result;
 }
 
-std::vector<double> HoldOut::stretchErrors(const Residuals& residuals) const {
-  return stretchLosses(residuals, std::numeric_limits<double>::infinity());
-}
-
 std::vector<double> HoldOut::stretchLosses(const Residuals& residuals, double outlier) const {
   std::vector<double> losses;
   for (const Stretch& stretch : stretches_) {
@@ -104,8 +99,9 @@ double HoldOut::trainingError(const Residuals& residuals) const {
   return joined(training).dot(joined(residuals).cwiseAbs2());
 }
 
-double HoldOut::rmse(const std::vector<double>& stretch_errors) const {
-  return std::sqrt(std::accumulate(stretch_errors.begin(), stretch_errors.end(), 0.0) / samples_);
+double HoldOut::rmse(const Residuals& residuals) const {
+  const std::vector<double> squares = stretchLosses(residuals);
+  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / samples_);
 }
 
 }  // namespace suspension_health_monitor

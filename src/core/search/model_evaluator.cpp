@@ -67,7 +67,7 @@ EvaluatedModel ModelEvaluator::weighed(const StrutModel& model, const Residuals&
   EvaluatedModel evaluated;
   evaluated.ranked.model = model;
   evaluated.ranked.effects = effectNames(model);
-  evaluated.ranked.held_out_rmse = held_out_.rmse(held_out_.stretchErrors(residuals));
+  evaluated.ranked.held_out_rmse = held_out_.rmse(residuals);
   // A model that was fitted can still run away in the stretches that were held out.
   if (!std::isfinite(evaluated.ranked.held_out_rmse)) evaluated.ranked.failure = FitFailure::kRunsAway;
   evaluated.stretches = held_out_.stretchLosses(residuals, outlier_);
