@@ -112,16 +112,15 @@ Eigen::MatrixXd LinearResponse::readingSlopes(const MeasurementEffect& effect) c
   for (std::size_t i = 0; i < count; ++i) {
     const double step = effect.scale(sizes_, i);
     if (!std::isfinite(step)) continue;  // a channel that is not known
-    std::vector<double> coefficients(count, 0.0);
     for (std::size_t s = 0; s < segments_.size(); ++s) {
-      const std::size_t begin = motion_.begins[s];
-      std::vector<double> before(predicted_.begin() + begin, predicted_.begin() + motion_.begins[s + 1]);
-      std::vector<double> after = before;
-      coefficients[i] = -step;
-      effect.apply(coefficients.data(), segments_[s]->body, period_, before);
-      coefficients[i] = step;
-      effect.apply(coefficients.data(), segments_[s]->body, period_, after);
-      for (std::size_t k = 0; k < after.size(); ++k) slopes(begin + k, i) = (after[k] - before[k]) / (2.0 * step);
+      const std::size_t begin = motion_.begins[s], end = motion_.begins[s + 1];
+      const auto readWith = [&](double coefficient) {
+        std::vector<double> coefficients(count, 0.0), series(predicted_.begin() + begin, predicted_.begin() + end);
+        coefficients[i] = coefficient;
+        effect.apply(coefficients.data(), segments_[s]->body, period_, series);
+        return joined<double>({series});
+      };
+      slopes.col(i).segment(begin, end - begin) = (readWith(step) - readWith(-step)) / (2.0 * step);
     }
   }
   return slopes;

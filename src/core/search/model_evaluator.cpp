@@ -109,12 +109,11 @@ EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vect
   const FitFailure failure = fit ? againstPhysics(*fit) : fit.failure;
   const auto without = [&](FitFailure why) { return failed(before != nullptr ? *before : EvaluatedModel(), why); };
   if (failure != FitFailure::kNone) return without(failure);
-  EvaluatedModel evaluated = weighed(fit->model, fit->residuals);
-  if (evaluated.ranked.failure != FitFailure::kNone) return without(evaluated.ranked.failure);
-  evaluated.fit = *fit;
-  evaluated.ranked.fitted = true;
-  evaluated.to_explain = before != nullptr ? before->to_explain : evaluated.loss;
-  if (before != nullptr) rank(*before, evaluated);
+  EvaluatedModel evaluated = asItIs(*fit);
+  if (!evaluated.ranked.fitted) return without(evaluated.ranked.failure);
+  if (before == nullptr) return evaluated;
+  evaluated.to_explain = before->to_explain;
+  rank(*before, evaluated);
   return evaluated;
 }
 
