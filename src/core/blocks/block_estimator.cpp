@@ -90,16 +90,15 @@ const std::vector<const StrutBlock*>& BlockEstimator::newest(int count, int from
   return pointers_;
 }
 
-bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result, bool is_near) {
-  window_fit_.fit(newest(window), prior, theta_, weights_.median, scatter_, result, is_near);
+bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result, bool is_near, int from) {
+  window_fit_.fit(newest(window, from), prior, theta_, weights_.median, scatter_, result, is_near);
   return result.isUsable();
 }
 
 std::optional<WindowEstimate> BlockEstimator::ofBlocks(int from, int count) {
   if (!has_theta_ || count < kBlockWindows.front() || from + count > count_) return std::nullopt;
   WindowEstimate result;
-  window_fit_.fit(newest(count, from), first_, theta_, weights_.median, scatter_, result);
-  if (!result.isUsable()) return std::nullopt;
+  if (!fit(count, first_, result, false, from)) return std::nullopt;
   return result;
 }
 

@@ -401,8 +401,7 @@ double meanSquare(const Residuals& residuals) {
 }
 
 FitOutcome withoutFit(const Records& records, const StrutModel& model) {
-  ModelFit fit;
-  fit.model = model;
+  ModelFit fit{model, {}, {}, {}, {}};
   const Segments segments = segmentsOf(records);
   if (!addResiduals(segments, std::vector<StrutState>(segments.size()), fit)) return FitFailure::kRunsAway;
   return fit;
