@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"

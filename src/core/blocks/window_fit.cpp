@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "suspension_health_monitor/internal/math/statistics.h"
-
 namespace suspension_health_monitor {
 
 bool WindowEstimate::isUsable() const {

@@ -5,7 +5,6 @@
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
-#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/search/screening.h"

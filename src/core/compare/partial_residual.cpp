@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "bin_range.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"

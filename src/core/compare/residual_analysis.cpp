@@ -1,11 +1,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
 #include <unsupported/Eigen/MatrixFunctions>
-#include <utility>
-#include <vector>
 
 #include "bin_range.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"

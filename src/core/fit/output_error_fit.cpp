@@ -2,13 +2,10 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "parameterization.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
