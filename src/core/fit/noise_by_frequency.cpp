@@ -124,6 +124,7 @@ NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double 
   // By this factor the mean of 1 / S is too large where S is an average over so many windows.
   const double scatter = averages / (averages - 1.0);
   // Of the residuals' power the spectra lack what is slower than the windows are long: an offset, and what wanders.
+  // White noise of variance 1 has the sum `unit`.
   const double unit = static_cast<double>(windows) * static_cast<double>(count - 1) * Periodogram(length).taperPower();
   const double shown = all / unit, whole = meanSquare(residuals);
   const double slow = whole > shown ? 1.0 - shown / whole : 0.0;

@@ -31,8 +31,8 @@ class HoldOut {
   std::vector<SampleMask> training;  ///< per segment of all records
 
   /// @param residuals  per segment of all records, as ModelFit has them.
-  /// @param outlier  a [m/s^2], > 0: the loss that fits minimise, which is softer on outliers, 2 a^2 (sqrt(1 + (r/a)^2)
-  /// - 1) instead of r^2, so that a few blows do not decide what is missing.
+  /// @param outlier  a [m/s^2], > 0: the loss that fits minimise, 2 a^2 (sqrt(1 + (r/a)^2) - 1) instead of r^2. It is
+  /// softer on outliers, so that a few blows do not decide what is missing.
   /// @return sum of squared residuals, or of losses, of each held-out stretch.
   std::vector<double> stretchLosses(const Residuals& residuals,
                                     double outlier = std::numeric_limits<double>::infinity()) const;
