@@ -63,7 +63,7 @@ TEST(HoldOut, EveryThirdBlockIsHeldOut) {
 TEST(HoldOut, StretchesLastOneNaturalPeriodAndHoldTheirOwnSamples) {
   const DriveRecord record = blocks();
   const auto held_out = splitHoldOut({&record}, kHalfSecond);
-  const auto errorsAt = [&](std::size_t k) { return held_out->stretchErrors(unitResidualAt(k)); };
+  const auto errorsAt = [&](std::size_t k) { return held_out->stretchLosses(unitResidualAt(k)); };
   ASSERT_EQ(errorsAt(0).size(), 10u);
   EXPECT_EQ(errorsAt(200)[0], 4.0);
   EXPECT_EQ(errorsAt(249)[0], 4.0);
@@ -77,7 +77,7 @@ TEST(HoldOut, EverySampleIsEitherTrainedOnOrJudgedBy) {
   const DriveRecord record = blocks();
   const auto held_out = splitHoldOut({&record}, kHalfSecond);
   for (const std::size_t k : {0u, 199u, 200u, 299u, 300u, 1399u, 1400u, 1499u}) {
-    const std::vector<double> errors = held_out->stretchErrors(unitResidualAt(k));
+    const std::vector<double> errors = held_out->stretchLosses(unitResidualAt(k));
     const bool judged = k / 100 % 3 == 2;
     EXPECT_EQ(std::accumulate(errors.begin(), errors.end(), 0.0), judged ? 4.0 : 0.0) << k;
     EXPECT_EQ(held_out->trainingError(unitResidualAt(k)), judged ? 0.0 : 4.0) << k;
@@ -87,7 +87,7 @@ TEST(HoldOut, EverySampleIsEitherTrainedOnOrJudgedBy) {
 TEST(HoldOut, RmseIsPerHeldOutSampleAndFitPercentAgainstTheirDeviation) {
   const DriveRecord record = blocks();
   const auto held_out = splitHoldOut({&record}, kHalfSecond);
-  EXPECT_NEAR(held_out->rmse(held_out->stretchErrors(unitResidualAt(250))), std::sqrt(4.0 / 500.0), 1e-12);
+  EXPECT_NEAR(held_out->rmse(unitResidualAt(250)), std::sqrt(4.0 / 500.0), 1e-12);
   EXPECT_NEAR(held_out->fitPercent(0.1), 80.0, 1e-9);  // 0 and 1 in turns: deviation 0.5
 }
 
@@ -97,7 +97,7 @@ TEST(HoldOut, SegmentsOfSeveralDrivesAreNumberedThrough) {
   ASSERT_EQ(held_out->training.size(), 2u);
   std::vector<std::vector<double>> residuals(2, std::vector<double>(1500, 0.0));
   residuals[1][200] = 2.0;
-  const std::vector<double> errors = held_out->stretchErrors(residuals);
+  const std::vector<double> errors = held_out->stretchLosses(residuals);
   ASSERT_EQ(errors.size(), 20u);
   EXPECT_EQ(errors[10], 4.0);
   residuals[1][200] = 0.0;

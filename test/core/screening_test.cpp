@@ -84,10 +84,8 @@ class ScreenedDrive {
         fit_(fitOf(record_, held_out_.training)) {}
 
   Screening screening() const { return {records_, held_out_, fit_}; }
-  double error() const { return held_out_.rmse(held_out_.stretchErrors(fit_.residuals)); }
-  double error(const ScreenedModel& screened) const {
-    return held_out_.rmse(held_out_.stretchErrors(screened.residuals));
-  }
+  double error() const { return held_out_.rmse(fit_.residuals); }
+  double error(const ScreenedModel& screened) const { return held_out_.rmse(screened.residuals); }
 
  private:
   DriveRecord record_;

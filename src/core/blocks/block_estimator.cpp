@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
@@ -33,6 +34,9 @@ bool explainsMostBands(const Eigen::Ref<const Eigen::ArrayXXd>& power, const std
   }
   return explained > kMajority * bands.count();
 }
+
+// What BlockEstimator knows of these comes from all blocks.
+bool isSlow(int i) { return i == kBlockDelay || i == kBlockGain || i >= kNumBlockParameters; }
 
 }  // namespace
 
@@ -85,16 +89,15 @@ const std::vector<const StrutBlock*>& BlockEstimator::newest(int count, int from
   return pointers_;
 }
 
-bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result, bool is_near) {
-  window_fit_.fit(newest(window), prior, theta_, weights_.median, scatter_, result, is_near);
+bool BlockEstimator::fit(int window, const BlockPrior& prior, WindowEstimate& result, bool is_near, int from) {
+  window_fit_.fit(newest(window, from), prior, theta_, weights_.median, scatter_, result, is_near);
   return result.isUsable();
 }
 
 std::optional<WindowEstimate> BlockEstimator::ofBlocks(int from, int count) {
   if (!has_theta_ || count < kBlockWindows.front() || from + count > count_) return std::nullopt;
   WindowEstimate result;
-  window_fit_.fit(newest(count, from), first_, theta_, weights_.median, scatter_, result);
-  if (!result.isUsable()) return std::nullopt;
+  if (!fit(count, first_, result, false, from)) return std::nullopt;
   return result;
 }
 
@@ -284,6 +287,78 @@ void BlockEstimator::refine(int window, const BlockPrior& prior) {
   trial_ = best_;
   window_fit_.fit(newest(window), prior, best_.theta, weights_.median, scatter_, trial_);
   if (trial_.isUsable()) std::swap(best_, trial_);
+}
+
+// Of the prior. A strut that bounces far faster than a car's has shorter blocks, and a delay that is shorter by as
+// much.
+double BlockEstimator::delayStddev() const {
+  return std::min(1.0, equations_.band().length / kBlockTuning.length) * kBlockTuning.delay_stddev;
+}
+
+// A gain, and of a vehicle a delay, is let in only if it is more than links and laws with memory make, see
+// kBlockTuning.least_phase.
+void BlockEstimator::lookAtSensors() {
+  const bool is_alone = equations_.columns().neighbours == 0;
+  const double omega = equations_.band().omega(equations_.band().last);
+  if (!is_alone) first_.stddev[kBlockDelay] = kBlockTuning.delay_stddev;
+  first_.stddev[kBlockGain] = kBlockTuning.gain_stddev;
+  const bool is_known = fit(count_, first_, trial_, true);
+  if (!is_alone && (!is_known || std::abs(trial_.theta[kBlockDelay]) * omega < kBlockTuning.least_phase))
+    first_.stddev[kBlockDelay] = kBlockTuning.held;
+  const bool tells_gain = is_known && trial_.explained >= kBlockTuning.nearly_all;
+  const bool differ = window_fit_.gainsDiffer(trial_);
+  if (tells_gain && !differ) first_.mean[kBlockGain] = 0.0;
+  if (!tells_gain || !differ) first_.stddev[kBlockGain] = kBlockTuning.held;
+}
+
+void BlockEstimator::forgetSlow() {
+  slow_ = first_;
+  of_all_.reset();
+}
+
+void BlockEstimator::scaleSlow(int parameter, double factor, double stddev) {
+  factor_[parameter] = factor;
+  factor_stddev_[parameter] = stddev;
+}
+
+void BlockEstimator::scaleSlow() {
+  scaled_.mean = slow_.mean.cwiseProduct(factor_);
+  scaled_.stddev =
+      (slow_.stddev.cwiseProduct(factor_).array().square() + slow_.mean.cwiseProduct(factor_stddev_).array().square())
+          .sqrt();
+}
+
+void BlockEstimator::learnSlow() {
+  lookAtSensors();
+  if (!fit(count_, first_, trial_, true)) return;
+  slow_ = first_;
+  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
+    if (!isSlow(i)) continue;
+    slow_.mean[i] = trial_.theta[i];
+    slow_.stddev[i] = std::min(kBlockTuning.slow_factor * std::sqrt(trial_.covariance(i, i)), first_.stddev[i]);
+  }
+  const auto& power = window_fit_.power();
+  weights_ = window_fit_.weights();
+  weights_.median.resize(power.rows());
+  for (Eigen::Index i = 0; i < power.rows(); ++i) {
+    sorted_.assign(power.row(i).begin(), power.row(i).end());
+    weights_.median[i] = std::max(medianInPlace(sorted_), std::numeric_limits<double>::min());
+  }
+  scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);
+  of_all_ = trial_;
+}
+
+bool BlockEstimator::contradictsSlow() {
+  if (weights_.median.size() == 0) return false;
+  BlockPrior open = scaled_;
+  open.stddev = first_.stddev;
+  if (!fit(kBlockWindows.front(), open, trial_)) return false;
+  for (int i = 0; i < static_cast<int>(theta_.size()); ++i) {
+    if (!isSlow(i) || !std::isfinite(scaled_.stddev[i])) continue;
+    const double apart = std::abs(trial_.theta[i] - scaled_.mean[i]);
+    if (apart > kProven * std::sqrt(trial_.covariance(i, i) + scaled_.stddev[i] * scaled_.stddev[i])) return true;
+  }
+  return false;
 }
 
 }  // namespace suspension_health_monitor

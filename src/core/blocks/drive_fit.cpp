@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
@@ -43,19 +44,21 @@ BlockMatrix withShare(const Eigen::MatrixXd& products, double share_scale) {
   return scaled;
 }
 
-NormalEquations::NormalEquations(const BlockMatrix& normal, const BlockVector& right)
-    : inverse(normal), solution(right) {
+std::pair<BlockMatrix, BlockVector> solvedNormal(const BlockMatrix& normal, const BlockVector& right) {
+  std::pair<BlockMatrix, BlockVector> result(normal, right);
+  auto& [inverse, solution] = result;
   // A column that is silent, such as that of an end stop which is not reached, leaves its parameter at 0, unknown.
   constexpr double kNoInformation = 1e-200;
   const BlockVector scale = normal.diagonal().cwiseAbs().cwiseMax(kNoInformation).cwiseSqrt().cwiseInverse();
-  if (!scale.allFinite()) return;
+  solution.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (!scale.allFinite()) return result;
   BlockMatrix scaled = scale.asDiagonal() * normal * scale.asDiagonal();
   for (Eigen::Index i = 0; i < scaled.rows(); ++i)
     if (normal(i, i) == 0.0) scaled(i, i) = 1.0;
   inverse = Eigen::PartialPivLU<BlockMatrix>(scaled).inverse();
   inverse = scale.asDiagonal() * inverse * scale.asDiagonal();
   solution.noalias() = inverse * right;
-  is_solvable = solution.allFinite();
+  return result;
 }
 
 BlockMatrix covarianceByNoise(const BlockMatrix& instruments, const BlockMatrix& inverse, const BlockPrior& prior,
@@ -117,15 +120,15 @@ std::optional<WindowEstimate> DriveFit::estimate(const Sums& sums, const BlockPr
   const BlockVector known = prior.stddev.cwiseAbs2().cwiseInverse();
   normal.diagonal() += known;
   right += known.cwiseProduct(prior.mean);
-  const NormalEquations equations(normal, right);
-  if (!equations.is_solvable) return std::nullopt;
+  const auto [inverse, solution] = solvedNormal(normal, right);
+  if (!solution.allFinite()) return std::nullopt;
   WindowEstimate result;
   result.blocks = sums.blocks;
-  result.theta = equations.solution;
-  result.covariance = covarianceByNoise(sums.spread, equations.inverse, prior, sums.blocks);
+  result.theta = solution;
+  result.covariance = covarianceByNoise(sums.spread, inverse, prior, sums.blocks);
   BlockMatrix scattered = sums.scatter;
   scattered.diagonal() += known;
-  scattered = equations.inverse * scattered * equations.inverse.transpose();
+  scattered = inverse * scattered * inverse.transpose();
   const Eigen::Matrix2d covariance = result.covariance.topLeftCorner<2, 2>();
   result.inflation = std::max(1.0, 0.5 * (covariance.inverse() * scattered.topLeftCorner<2, 2>()).trace());
   result.covariance *= result.inflation;

@@ -1,7 +1,6 @@
 #include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
@@ -49,13 +48,18 @@ FourierIntegrals::FourierIntegrals(const BlockBand& band, std::size_t channels)
 
 void FourierIntegrals::push(double time, const double* values, Phases& phases) {
   if (lost_ > 0) bridge(time, values, phases);
-  held_.set(time, values);
+  held_.time = time;
+  std::copy_n(values, held_.values.size(), held_.values.begin());
   lost_ = is_empty_ ? 0 : lostBefore(time);
   if (lost_ > 0) return;
-  if (is_empty_)
-    begin(held_);
-  else
+  if (is_empty_) {
+    first_ = held_.values;
+    begin(halfOf(time));
+    is_whole_ = time - static_cast<double>(open_) * half_length_ < longest_spacing_;
+    is_empty_ = false;
+  } else {
     addSpacing(last_, held_, phases);
+  }
   takeHeld();
 }
 
@@ -97,16 +101,8 @@ void FourierIntegrals::bridge(double next_time, const double* next, Phases& phas
   takeHeld();
 }
 
-void FourierIntegrals::begin(const Reading& first) {
-  const long half = static_cast<long>(std::floor(first.time / half_length_));
-  first_ = first.values;
-  begin(half);
-  is_whole_ = first.time - static_cast<double>(half) * half_length_ < longest_spacing_;
-  is_empty_ = false;
-}
-
 void FourierIntegrals::addSpacing(const Reading& left, const Reading& right, Phases& phases) {
-  const long half = static_cast<long>(std::floor(right.time / half_length_));
+  const long half = halfOf(right.time);
   const double spacing = right.time - left.time;
   if (spacing > longest_spacing_) {
     is_whole_ = false;

@@ -2,16 +2,7 @@
 
 #include <limits>
 
-#include "suspension_health_monitor/internal/blocks/block_estimator.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
-
 namespace suspension_health_monitor {
-namespace {
-
-// Within a factor of two of what it was, so that the model stays stable.
-double withinReach(double value, double before) { return std::clamp(value, 0.5 * before, 2.0 * before); }
-
-}  // namespace
 
 bool WindowEstimate::isUsable() const {
   return theta.allFinite() && covariance.allFinite() && theta[kBlockDamping] > 0.0 && theta[kBlockStiffness] > 0.0 &&
@@ -50,13 +41,13 @@ void WindowFit::fit(const std::vector<const StrutBlock*>& blocks, const BlockPri
     for (int i = 0; i < kBlockTuning.weightings; ++i) {
       measureNoise(result.theta);
       sum(prior);
-      const NormalEquations equations(normal_, right_);
-      if (!equations.is_solvable) break;
-      const double b1 = result.theta[kBlockDamping], b0 = result.theta[kBlockStiffness];
-      result.theta = equations.solution;
+      const BlockVector solution = solvedNormal(normal_, right_).second;
+      if (!solution.allFinite()) break;
+      const Eigen::Vector2d before = result.theta.head<2>();
+      result.theta = solution;
       solved_ = result.theta.head<2>();
-      result.theta[kBlockDamping] = withinReach(result.theta[kBlockDamping], b1);
-      result.theta[kBlockStiffness] = withinReach(result.theta[kBlockStiffness], b0);
+      for (const int n : {kBlockDamping, kBlockStiffness})  // within a factor of two, so that the model stays stable
+        result.theta[n] = std::clamp(solved_[n], 0.5 * before[n], 2.0 * before[n]);
       result.theta[kBlockWheelShare] =
           std::clamp(result.theta[kBlockWheelShare], kBlockTuning.least_share, 1.0 - kBlockTuning.least_share);
     }
@@ -139,16 +130,16 @@ void WindowFit::sum(const BlockPrior& prior) {
 void WindowFit::describe(const std::vector<const StrutBlock*>& blocks, const BlockPrior& prior, double least_inflation,
                          WindowEstimate& result) {
   sum(prior);
-  const NormalEquations equations(normal_, right_);
-  result.covariance = covarianceByNoise(spread_, equations.inverse, prior, blocks_);
-  if (!equations.is_solvable) result.covariance.setConstant(std::numeric_limits<double>::infinity());
-  result.inflation = std::max(least_inflation, inflation(blocks, result, equations.inverse, prior));
+  const auto [inverse, solution] = solvedNormal(normal_, right_);
+  result.covariance = covarianceByNoise(spread_, inverse, prior, blocks_);
+  if (!solution.allFinite()) result.covariance.setConstant(std::numeric_limits<double>::infinity());
+  result.inflation = std::max(least_inflation, inflation(blocks, result, inverse, prior));
   result.covariance *= result.inflation;
   result.is_settled =
       ((solved_ - result.theta.head<2>()).array().square() <= result.covariance.diagonal().head<2>().array()).all();
   result.noise = weights_.noise;
   result.alike = 0.0;
-  if (!wheel_noise_.empty()) widenByAlike(equations.inverse, result);
+  if (!wheel_noise_.empty()) widenByAlike(inverse, result);
 
   using Band = StrutBlock::Band;
   Band::Powers powers = Band::Powers::Zero();

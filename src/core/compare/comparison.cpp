@@ -5,7 +5,6 @@
 
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/fit/hold_out.h"
-#include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/search/screening.h"
@@ -17,11 +16,12 @@ namespace {
 /// @param taps  of the filter that the drive has passed.
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
                      const std::vector<double>& taps, ComparedSegment& segment) {
-  const MotionError wrong = motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
+  const auto [travel_error, rate_error] =
+      motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
   std::vector<double>& force = segment.missing_force;
   force.resize(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k)
-    force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
+    force[k] = model.force(segment.travel[k] - travel_error[k], segment.travel_rate[k] - rate_error[k],
                            segment.timeDriven(k), motion[k].memory.data());
   passLow(taps, force);
   model.read(segment.body, segment.period, force);
@@ -49,38 +49,9 @@ ComparedSegment makeSegment(const StrutModel& model, const DriveSegment& source,
   return segment;
 }
 
-}  // namespace
-
-std::vector<double> ComparedSegment::residuals() const {
-  std::vector<double> all(size());
-  for (std::size_t k = 0; k < size(); ++k) all[k] = residual(k);
-  return all;
-}
-
-std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
-                                              const std::vector<StrutState>& initial) {
-  ComparedDrives drives;
-  auto& [segments, motion] = drives;
-  for (std::size_t r = 0; r < records.size(); ++r)
-    for (const DriveSegment& source : records[r]->segments()) {
-      std::vector<double> predicted;
-      motion.emplace_back();
-      if (!runFree(model, source, initial[segments.size()], predicted, &motion.back())) return std::nullopt;
-      segments.push_back(makeSegment(model, source, motion.back()));
-      segments.back().drive = r;
-      segments.back().predicted = std::move(predicted);
-    }
-  const double mean = meanOf(mapped(segments, &ComparedSegment::residuals));
-  const Segments sources = segmentsOf(records);
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
-  return drives;
-}
-
-namespace {
-
 /// @return nothing if the measurement does not move, or there is none.
-std::optional<PredictionError> errorOf(const Eigen::VectorXd& measured, const Eigen::VectorXd& predicted) {
+std::optional<PredictionError> errorOf(const Residuals& measurement, const Residuals& prediction) {
+  const Eigen::VectorXd measured = joined(measurement), predicted = joined(prediction);
   if (measured.size() == 0) return std::nullopt;
   const double error = (measured - predicted).squaredNorm();
   const double spread = (measured.array() - measured.mean()).square().sum();
@@ -119,7 +90,7 @@ std::optional<PredictionError> oneStepError(const std::vector<ComparedSegment>& 
                           model.stiffness_to_mass * row->regressor[kStiffnessToMass] + added.output(2));
     }
   }
-  return errorOf(joined<double>({measured}), joined<double>({predicted}));
+  return errorOf({measured}, {predicted});
 }
 
 /// Fits the model, or keeps it.
@@ -147,24 +118,17 @@ std::vector<std::vector<std::pair<double, double>>> heldOutSpans(const Records& 
   std::vector<std::vector<std::pair<double, double>>> spans;
   auto mask = held_out.training.begin();
   for (const DriveRecord* record : records) {
-    spans.emplace_back();
+    auto& of_drive = spans.emplace_back();
     for (const DriveSegment& segment : record->segments()) {
-      for (auto first = mask->begin(); (first = std::find(first, mask->end(), 0)) != mask->end();) {
-        const auto end = std::find(first, mask->end(), 1);
-        const auto index = [&](auto at) { return static_cast<std::size_t>(at - mask->begin()); };
-        spans.back().emplace_back(segment.time(index(first)), segment.time(index(end) - 1));
-        first = end;
+      const SampleMask& fitted = *mask++;
+      for (std::size_t k = 0; k < segment.size(); ++k) {
+        if (fitted[k] != 0) continue;
+        if (k == 0 || fitted[k - 1] != 0) of_drive.emplace_back(segment.time(k), 0.0);
+        of_drive.back().second = segment.time(k);
       }
-      ++mask;
     }
   }
   return spans;
-}
-
-int horizonFor(const CompareOptions& options, const StrutModel& model, double period) {
-  if (options.horizon_samples) return *options.horizon_samples;
-  const double horizon = proposeHorizon(model.damping_to_mass, model.stiffness_to_mass);
-  return horizonSamples(horizon, period);
 }
 
 /// @return what is the matter, if anything.
@@ -176,11 +140,11 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!comparison.model.isDampedSpring()) return Shortcoming::kNoDampedSpring;
   const std::optional<std::vector<StrutState>> initial = settleModel(records, options, comparison);
   if (!initial) return Shortcoming::kNoStableFit;
-  std::optional<ComparedDrives> compared = compareSegments(records, comparison.model, *initial);
+  auto compared = compareSegments(records, comparison.model, *initial);
   if (!compared) return Shortcoming::kNoStableFit;
-  comparison.segments = std::move(compared->segments);
-  const auto free_run = errorOf(joined(mapped(comparison.segments, &ComparedSegment::measured)),
-                                joined(mapped(comparison.segments, &ComparedSegment::predicted)));
+  comparison.segments = std::move(compared->first);
+  const auto free_run = errorOf(mapped(comparison.segments, &ComparedSegment::measured),
+                                mapped(comparison.segments, &ComparedSegment::predicted));
   if (!free_run) return Shortcoming::kTooShort;
   if (options.fit && free_run->fit_percent < 0.0) return Shortcoming::kNoStableFit;  // worse than a constant
   comparison.free_run = *free_run;
@@ -190,7 +154,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   double by_law = 0.0, law_leaves = 0.0;
   if (const auto held_out = splitHoldOut(records, comparison.model.stiffness_to_mass)) {
     if (const auto fit = judgedFit(records, *held_out, options, *initial, comparison)) {
-      comparison.held_out_rmse = held_out->rmse(held_out->stretchErrors(fit->residuals));
+      comparison.held_out_rmse = held_out->rmse(fit->residuals);
       by_law = Screening(records, *held_out, *fit).surfaceGain();
       law_leaves = *comparison.held_out_rmse * std::sqrt(1.0 - by_law);
     }
@@ -200,7 +164,11 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
 
   IntegralFilterOptions filter;
   filter.period = records.front()->period();
-  filter.horizon_samples = comparison.horizon_samples = horizonFor(options, comparison.model, filter.period);
+  const LinearStrut strut = comparison.model.linearPart();
+  filter.horizon_samples = comparison.horizon_samples =
+      options.horizon_samples
+          ? *options.horizon_samples
+          : horizonSamples(proposeHorizon(strut.damping_to_mass, strut.stiffness_to_mass), filter.period);
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
@@ -213,17 +181,42 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   comparison.noise_floor = floor.rms;
   comparison.structured_share = structuredShare(comparison.free_run.rmse, comparison.noise_floor);
   report(0.85);
-  const LinearStrut strut = comparison.model.linearPart();
   std::optional<ResidualViews> views = viewResidual(comparison.segments, strut, floor);
   if (!views) return Shortcoming::kTooShort;
   comparison.views = std::move(*views);
   comparison.where = findFailures(comparison.views, strut, comparison.noise_floor);
-  comparison.forces = partialResiduals(comparison.segments, compared->motion, comparison.model);
+  comparison.forces = partialResiduals(comparison.segments, compared->second, comparison.model);
   report(1.0);
   return Shortcoming::kNone;
 }
 
 }  // namespace
+
+std::vector<double> ComparedSegment::residuals() const {
+  std::vector<double> all(size());
+  for (std::size_t k = 0; k < size(); ++k) all[k] = residual(k);
+  return all;
+}
+
+std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegments(
+    const Records& records, const StrutModel& model, const std::vector<StrutState>& initial) {
+  std::vector<ComparedSegment> segments;
+  FreeMotion motion;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (const DriveSegment& source : records[r]->segments()) {
+      std::vector<double> predicted;
+      motion.emplace_back();
+      if (!runFree(model, source, initial[segments.size()], predicted, &motion.back())) return std::nullopt;
+      segments.push_back(makeSegment(model, source, motion.back()));
+      segments.back().drive = r;
+      segments.back().predicted = std::move(predicted);
+    }
+  const double mean = meanOf(mapped(segments, &ComparedSegment::residuals));
+  const Segments sources = segmentsOf(records);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
+  return std::pair(std::move(segments), std::move(motion));
+}
 
 Comparison compareModel(const Records& records, const StrutModel& model, const CompareOptions& options) {
   Comparison comparison;

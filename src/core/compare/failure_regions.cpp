@@ -105,6 +105,8 @@ class FailureFinder {
     return region;
   }
 
+  FailureRegion& add(FailureView view, const BinRange& range) { return found_.emplace_back(regionOf(view, range)); }
+
   FailureRegion& add(FailureView view, double rmse) {
     FailureRegion& region = found_.emplace_back();
     region.view = view;
@@ -120,10 +122,8 @@ class FailureFinder {
   void findInTime(std::size_t first, std::size_t last) {
     if (findDrift(first, last)) return;
     const std::vector<ResidualBin> bins(views_.time.begin() + first, views_.time.begin() + last);
-    for (const BinRange& range : noisy(bins, kCompareTuning.contrast_in_time)) {
-      found_.push_back(regionOf(FailureView::kTime, range));
-      found_.back().drive = views_.time[first].drive;
-    }
+    for (const BinRange& range : noisy(bins, kCompareTuning.contrast_in_time))
+      add(FailureView::kTime, range).drive = views_.time[first].drive;
   }
 
   bool findDrift(std::size_t first, std::size_t last) {
@@ -166,14 +166,10 @@ class FailureFinder {
   }
 
   void findAlong(FailureView view, const std::vector<ResidualBin>& bins) {
-    const auto take = [&](const BinRange& range, double mean) {
-      found_.push_back(regionOf(view, range));
-      found_.back().mean = mean;
-    };
     const std::vector<BinRange> found = forces(bins);
-    for (const BinRange& range : found) take(range, range.mean());
+    for (const BinRange& range : found) add(view, range).mean = range.mean();
     if (!found.empty() || drifts_) return;  // large motion has larger errors, too, when a parameter moves
-    for (const BinRange& range : noisy(bins, kClearlyMore)) take(range, 0.0);
+    for (const BinRange& range : noisy(bins, kClearlyMore)) add(view, range);
   }
 
   void findOnSurface() {

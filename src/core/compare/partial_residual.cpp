@@ -1,6 +1,6 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 #include "bin_range.h"
 #include "suspension_health_monitor/internal/compare/comparison.h"
@@ -16,12 +16,8 @@ struct Sample {
 };
 
 double StrutMotion::*memberOf(ForceVariable variable) {
-  switch (variable) {
-    case ForceVariable::kTravel: return &StrutMotion::travel;
-    case ForceVariable::kTravelRate: return &StrutMotion::travel_rate;
-    case ForceVariable::kTime: break;
-  }
-  return &StrutMotion::time;
+  constexpr std::array members{&StrutMotion::travel, &StrutMotion::travel_rate, &StrutMotion::time};
+  return members[static_cast<std::size_t>(variable)];
 }
 
 double valueOf(const Sample& sample, ForceVariable variable) { return sample.motion.*memberOf(variable); }
@@ -110,9 +106,8 @@ PartialResidualGrid gridOver(const std::vector<Sample>& samples, ForceVariable f
 }
 
 /// Every sample with the force of one effect.
-std::vector<Sample> samplesOf(const std::vector<ComparedSegment>& segments,
-                              const std::vector<std::vector<StrutState>>& motion, const ActiveEffect& active,
-                              std::size_t index) {
+std::vector<Sample> samplesOf(const std::vector<ComparedSegment>& segments, const FreeMotion& motion,
+                              const ActiveEffect& active, std::size_t index) {
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (std::size_t k = 0; k < segments[i].size(); ++k) {
@@ -146,8 +141,7 @@ double PartialResidual::lawAt(double value) const {
   return effect.force(motion);
 }
 
-std::vector<PartialResidual> partialResiduals(const std::vector<ComparedSegment>& segments,
-                                              const std::vector<std::vector<StrutState>>& motion,
+std::vector<PartialResidual> partialResiduals(const std::vector<ComparedSegment>& segments, const FreeMotion& motion,
                                               const StrutModel& model) {
   std::vector<PartialResidual> forces;
   for (std::size_t j = 0; j < model.effects.size(); ++j)

@@ -12,15 +12,13 @@ namespace {
 constexpr double kBin = 0.5;        // rms: extremes are some four, which makes 16 bins
 constexpr double kMostBins = 50.0;  // per direction: a strut that is hit now and then
 
-using Motion = std::vector<std::vector<StrutState>>;  // by segment
-
 TimeHistogram::Direction directionOf(const Eigen::VectorXd& values) {
   const Eigen::VectorXd sizes = values.cwiseMax(0.0);
   const double count = static_cast<double>((values.array() > 0.0).count());
   return {count / static_cast<double>(values.size()), count > 0.0 ? sizes.sum() / count : 0.0, sizes.maxCoeff()};
 }
 
-TimeHistogram histogramOf(const Motion& motion, double StrutState::*which) {
+TimeHistogram histogramOf(const FreeMotion& motion, double StrutState::*which) {
   std::vector<double> all;
   for (const std::vector<StrutState>& segment : motion)
     for (const StrutState& state : segment) all.push_back(state.*which);
@@ -40,7 +38,7 @@ TimeHistogram histogramOf(const Motion& motion, double StrutState::*which) {
 }
 
 /// @param direction  1 of a stop in compression, -1 in rebound.
-StopUse useOf(const Motion& motion, const ActiveEffect& stop, double direction) {
+StopUse useOf(const FreeMotion& motion, const ActiveEffect& stop, double direction) {
   StopUse use{stop.effect.name, stop.shapes.front()};
   double count = 0.0;
   for (const std::vector<StrutState>& segment : motion) {
@@ -64,10 +62,8 @@ TravelStatistics travelStatistics(const Records& records, const StrutModel& mode
   const Segments segments = segmentsOf(records);
   const auto initial = segments.empty() ? std::nullopt : estimateInitialStates(records, model);
   if (!initial) return {};
-  Motion motion(segments.size());
-  std::vector<double> predicted;
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    if (!runFree(model, *segments[i], (*initial)[i], predicted, &motion[i])) return {};
+  FreeMotion motion;
+  if (!freeRunResiduals(model, segments, *initial, &motion)) return {};
   TravelStatistics statistics{
       histogramOf(motion, &StrutState::travel), histogramOf(motion, &StrutState::travel_rate), {}};
   for (const ActiveEffect& effect : model.effects)

@@ -1,18 +1,19 @@
 #include "suspension_health_monitor/internal/fit/curve_fit.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "nodal_law.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "whitening.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -27,6 +28,112 @@ constexpr int kMostHalvings = 6;           // of a step after which the model ru
 constexpr double kTransient = 1e-3;        // share of a wrong initial state that the first sample that counts still has
 constexpr double kPeriodsOfCluster = 2.0;  // noise that a strut passes is forgotten after a natural period
 constexpr Eigen::Index kRowsPerColumn = 20;  // fewest samples
+constexpr Eigen::Index kWhitening = 10;  // order: two for each resonance of body and wheel, and for sensors' filters
+
+/// A piecewise linear function of one variable that is 0 at 0, and goes on straight beyond its ends.
+struct NodalLaw {
+  std::vector<double> nodes, values;
+
+  /// @return a law with even nodes on either side of 0, up to `most`.
+  template <class Law>
+  static NodalLaw sampled(double most, const Law& law) {
+    NodalLaw sampled;
+    for (int i = -kFirstNodes; i <= kFirstNodes; ++i) {
+      sampled.nodes.push_back(most * i / kFirstNodes);
+      sampled.values.push_back(i == 0 ? 0.0 : law(sampled.nodes.back()));
+    }
+    return sampled;
+  }
+
+  /// Calls take(node, weight) for the two nodes that decide f(x).
+  template <class Take>
+  void forNodesAt(double x, const Take& take) const {
+    const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
+    const auto i = static_cast<std::size_t>(above - nodes.begin());
+    const double share = (x - nodes[i - 1]) / (nodes[i] - nodes[i - 1]);
+    take(i - 1, 1.0 - share);
+    take(i, share);
+  }
+
+  double at(double x) const {
+    double sum = 0.0;
+    forNodesAt(x, [&](std::size_t i, double weight) { sum += weight * values[i]; });
+    return sum;
+  }
+
+  /// Weights of three neighbours' values in the change of slope at the middle one.
+  Eigen::Vector3d bendWeights(std::size_t i) const {
+    const double before = 1.0 / (nodes[i] - nodes[i - 1]), after = 1.0 / (nodes[i + 1] - nodes[i]);
+    return {before, -before - after, after};
+  }
+
+  double bend(std::size_t i) const {
+    const Eigen::Vector3d weights = bendWeights(i);
+    return weights[0] * values[i - 1] + weights[1] * values[i] + weights[2] * values[i + 1];
+  }
+
+  /// The same function with more nodes: in the middle of cells that have an end where splits(node).
+  template <class Splits>
+  NodalLaw refined(const Splits& splits) const {
+    NodalLaw finer;
+    const auto add = [&](double x, double value) {
+      finer.nodes.push_back(x);
+      finer.values.push_back(value);
+    };
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (i > 0 && (splits(i - 1) || splits(i)))
+        add(0.5 * (nodes[i - 1] + nodes[i]), 0.5 * (values[i - 1] + values[i]));
+      add(nodes[i], values[i]);
+    }
+    return finer;
+  }
+};
+
+/// A series behind an FIR filter that begins where it has its past; 0 before.
+/// @param taps  the newest sample's last.
+Eigen::VectorXd filtered(const Eigen::VectorXd& series, const Eigen::VectorXd& taps) {
+  const Eigen::Index n = series.size() - taps.size() + 1;
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(series.size());
+  for (Eigen::Index j = 0; j < taps.size(); ++j) result.tail(n) += taps[j] * series.segment(j, n);
+  return result;
+}
+
+/// Prediction error filter of an autoregressive model of a series, by least squares.
+/// @param counts  1 where a sample and those before it are of one stretch, else 0.
+Eigen::VectorXd whiteningOf(const Eigen::VectorXd& series, const Eigen::VectorXd& counts) {
+  const Eigen::Index n = series.size() - kWhitening;
+  Eigen::MatrixXd past(n, kWhitening);
+  for (Eigen::Index j = 0; j < kWhitening; ++j) past.col(j) = counts.tail(n).cwiseProduct(series.segment(j, n));
+  Eigen::MatrixXd normal = past.transpose() * past;
+  normal.diagonal().array() += kRounding * normal.trace() + std::numeric_limits<double>::min();
+  Eigen::VectorXd taps(kWhitening + 1);
+  taps << -solveSymmetric(normal, past.transpose() * series.tail(n)), 1.0;
+  return taps;
+}
+
+/// @param counts  1 where a whitened sample counts, else 0.  @param accuracy  below which no error is [m/s^2].
+/// @return one over the variance; less for outliers; 0 for what does not count.
+Eigen::VectorXd robustWeights(const Eigen::VectorXd& white, const Eigen::VectorXd& counts, double accuracy) {
+  std::vector<double> counted;
+  for (Eigen::Index k = 0; k < white.size(); ++k)
+    if (counts[k] > 0.0) counted.push_back(white[k]);
+  const double limit = kOutlierScale * std::max(robustDeviation(counted), accuracy);
+  const Eigen::VectorXd weights = counts.array() / (1.0 + (white.array() / limit).square()).sqrt();
+  const double variance = weights.dot(white.cwiseAbs2()) / weights.sum();
+  return weights / std::max(variance, square(accuracy));
+}
+
+/// Sum of the squared scores of stretches: it tells the scatter of a solution where noise is not alike at all times.
+/// @param weighted  what the solution leaves, weighted.  @param length  of a stretch.
+Eigen::MatrixXd sumOfScores(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weighted, Eigen::Index length) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+  for (Eigen::Index k = 0; k < columns.rows(); k += length) {
+    const Eigen::Index count = std::min(length, columns.rows() - k);
+    const Eigen::VectorXd score = columns.middleRows(k, count).transpose() * weighted.segment(k, count);
+    sum.noalias() += score * score.transpose();
+  }
+  return sum;
+}
 
 enum Which : std::size_t { kDamper, kSpring };
 
@@ -50,18 +157,15 @@ double sumOf(const std::vector<ActiveEffect>& effects, const StrutMotion& motion
   return sum;
 }
 
-/// b1 and b0. A strut without a damper is given a tenth of the critical damping, so that its damper's law has a scale.
-std::array<double, 2> slopesOf(const StrutModel& model) {
-  return {std::max(model.damping_to_mass, 0.2 * std::sqrt(model.stiffness_to_mass)), model.stiffness_to_mass};
-}
-
 /// The fit of both laws and of an offset between the sensors, by Gauss-Newton steps.
 class CurveFit {
  public:
   /// @param start  a model as it is, run from rest.
   CurveFit(const Records& records, const ModelFit& start)
       : records_(records),
-        slopes_{slopesOf(start.model)},
+        // A strut without a damper is given a tenth of the critical damping, so that its damper's law has a scale.
+        slopes_{std::max(start.model.damping_to_mass, 0.2 * std::sqrt(start.model.stiffness_to_mass)),
+                start.model.stiffness_to_mass},
         rest_(start.model),
         momentary_(takeMomentary(rest_)),
         fit_(start),
@@ -71,9 +175,8 @@ class CurveFit {
     std::array<double, 2> most{};
     for (const StrutMotion& motion : response.motion().samples)
       for (const std::size_t w : {kDamper, kSpring}) most[w] = std::max(most[w], std::abs(variableOf(motion, w)));
-    laws_ = {
-        NodalLaw::sampled(most[kDamper], kFirstNodes, [&](double v) { return slopes_[kDamper] * v + alone(0.0, v); }),
-        NodalLaw::sampled(most[kSpring], kFirstNodes, [&](double d) { return slopes_[kSpring] * d + alone(d, 0.0); })};
+    laws_ = {NodalLaw::sampled(most[kDamper], [&](double v) { return slopes_[kDamper] * v + alone(0.0, v); }),
+             NodalLaw::sampled(most[kSpring], [&](double d) { return slopes_[kSpring] * d + alone(d, 0.0); })};
     rest_.damping_to_mass = rest_.stiffness_to_mass = 0.0;
     rest_.effects.push_back({{}, 1.0, {}});
     rest_.effects.back().effect.force = [this](const StrutMotion& m, const double*) {
@@ -81,7 +184,7 @@ class CurveFit {
           momentary_.empty() ? 0.0 : sumOf(momentary_, m) - alone(m.travel, 0.0) - alone(0.0, m.travel_rate);
       return joint + laws_[kDamper].at(m.travel_rate) + laws_[kSpring].at(m.travel);
     };
-    countSamples(response.motion().ends);
+    countSamples(response.motion().begins);
   }
 
   CurveFit(const CurveFit&) = delete;  // the model calls this object
@@ -143,25 +246,21 @@ class CurveFit {
   double misfit(std::size_t which, std::size_t node) const {
     const NodalLaw& law = laws_[which];
     if (node == 0 || node + 1 >= law.nodes.size()) return 0.0;
-    const Eigen::Vector3d weights(law.bendWeights(node).data());
+    const Eigen::Vector3d weights = law.bendWeights(node);
     const Eigen::Index first = column(which, node - 1);
     const double noise = std::sqrt(weights.dot(inverse_.block<3, 3>(first, first) * weights));
     return std::max(0.0, std::abs(law.bend(node)) - noise) * (law.nodes[node + 1] - law.nodes[node - 1]) / 24.0;
   }
 
   // Not those that a wrong initial state or the filters' beginning is in.
-  void countSamples(const std::vector<std::size_t>& ends) {
+  void countSamples(const std::vector<std::size_t>& begins) {
     const double period = records_.front()->period();
     const double settling = -std::log(kTransient) / slowestDecay(slopes_[kDamper], slopes_[kSpring]);  // [s]
     const auto skipped = std::max(kWhitening, static_cast<Eigen::Index>(settling / period));
     cluster_ = static_cast<Eigen::Index>(kPeriodsOfCluster * 2.0 * M_PI / std::sqrt(slopes_[kSpring]) / period);
-    counts_.setOnes(ends.back());
-    Eigen::Index begin = 0;
-    for (const std::size_t end : ends) {
-      const Eigen::Index size = end - begin;
-      counts_.segment(begin, std::min(size, skipped)).setZero();
-      begin += size;
-    }
+    counts_.setOnes(begins.back());
+    for (std::size_t s = 0; s + 1 < begins.size(); ++s)
+      counts_.segment(begins[s], std::min<Eigen::Index>(begins[s + 1] - begins[s], skipped)).setZero();
   }
 
   bool run() {
@@ -197,8 +296,7 @@ class CurveFit {
   void addPrior(Eigen::MatrixXd& normal, Eigen::VectorXd& right) const {
     for (const std::size_t w : {kDamper, kSpring})
       for (std::size_t i = 1; i + 1 < laws_[w].nodes.size(); ++i) {
-        const std::array<double, 3> weights = laws_[w].bendWeights(i);
-        const Eigen::Vector3d row = Eigen::Vector3d(weights.data()) / (kSteepest * slopes_[w]);
+        const Eigen::Vector3d row = laws_[w].bendWeights(i) / (kSteepest * slopes_[w]);
         normal.block<3, 3>(column(w, i - 1), column(w, i - 1)) += row * row.transpose();
         right.segment<3>(column(w, i - 1)) -= row * (laws_[w].bend(i) / (kSteepest * slopes_[w]));
       }

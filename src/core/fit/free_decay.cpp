@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
@@ -12,18 +13,16 @@ namespace {
 constexpr double kDecayWindow = 1.5;  // [s]: more than a period of the slowest car's bounce, 1 Hz
 constexpr int kDecayOverlap = 6;      // windows begin this many times in the length of one
 
-struct DecayWindow {
-  Eigen::Matrix3d products;  // of (int u, int int u, z'') with each other, summed
-  double noise, motion;      // rms of the residual of z'', and of z''
-};
+/// Products of (int u, int int u, z'') with each other, summed over the samples of a window.
+using DecayWindow = Eigen::Matrix3d;
 
 /// b1 and b0 by least squares.
-Eigen::Vector2d solutionOf(const Eigen::Matrix3d& products) {
+Eigen::Vector2d solutionOf(const DecayWindow& products) {
   return products.topLeftCorner<2, 2>().ldlt().solve(products.topRightCorner<2, 1>());
 }
 
 /// The residual's sum of squares.
-double unexplained(const Eigen::Matrix3d& products) {
+double unexplained(const DecayWindow& products) {
   return std::max(0.0, products(2, 2) - products.topRightCorner<2, 1>().dot(solutionOf(products)));
 }
 
@@ -50,9 +49,7 @@ DecayWindow decayWindow(const CornerSample* samples, double period, const Eigen:
     last = u;
   }
   columns -= own * (own.transpose() * columns);
-  const Eigen::Matrix3d products = columns.transpose() * columns;
-  const auto n = static_cast<double>(own.rows());
-  return {products, std::sqrt(unexplained(products) / n), std::sqrt(products(2, 2) / n)};
+  return columns.transpose() * columns;
 }
 
 std::vector<DecayWindow> decayWindowsOf(const std::vector<Drive>& drives, double period, std::size_t count) {
@@ -75,20 +72,22 @@ StrutEstimate estimateFromFreeDecays(const std::vector<Drive>& drives) {
   const double period = medianPeriod(drives);
   const auto count = static_cast<std::size_t>(kDecayWindow / period);
   if (count < kFewestForScatter) return estimate;
-  std::vector<DecayWindow> windows = decayWindowsOf(drives, period, count);
+  const std::vector<DecayWindow> windows = decayWindowsOf(drives, period, count);
   if (windows.empty()) return estimate;
-  std::vector<double> noises;
-  for (const DecayWindow& window : windows) noises.push_back(window.noise);
+  const auto n = static_cast<double>(count);
+  const auto noiseOf = [n](const DecayWindow& window) { return std::sqrt(unexplained(window) / n); };  // rms
+  std::vector<double> noises = mapped(windows, noiseOf);
   const auto tenth = noises.begin() + noises.size() / 10;
   std::nth_element(noises.begin(), tenth, noises.end());
   // An rms of n values scatters by 1 / sqrt(2 n); the tenth is 1.3 of that below the mean.
-  const double most = *tenth * (1.0 + (1.3 + kLikely) / std::sqrt(2.0 * static_cast<double>(count)));
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  const double most = *tenth * (1.0 + (1.3 + kLikely) / std::sqrt(2.0 * n));
+  DecayWindow products = DecayWindow::Zero();
   double values = 0.0;
   for (const DecayWindow& window : windows) {
-    if (window.noise > std::max(most, kWorthHaving * window.motion) || window.motion < kMuchMore * *tenth) continue;
-    products += window.products;
-    values += static_cast<double>(count);
+    const double motion = std::sqrt(window(2, 2) / n);
+    if (noiseOf(window) > std::max(most, kWorthHaving * motion) || motion < kMuchMore * *tenth) continue;
+    products += window;
+    values += n;
   }
   if (values == 0.0) return estimate;
   const Eigen::Vector2d theta = solutionOf(products);

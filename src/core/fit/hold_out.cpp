@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr std::size_t kSettlingPeriods = 2;  // natural periods
-
-}  // namespace
 
 PairedTest testPaired(const std::vector<double>& before, const std::vector<double>& after, double independent) {
   using Series = Eigen::Map<const Eigen::ArrayXd>;
@@ -52,12 +48,11 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
         sum += segment.sprung[k];
         squares += square(segment.sprung[k]);
         result.samples_ += 1.0;
-        const bool goes_on = !result.stretches_.empty() && result.stretches_.back().segment == index &&
-                             result.stretches_.back().last == k && k - result.stretches_.back().first < period;
-        if (goes_on)
-          result.stretches_.back().last = k + 1;
-        else
-          result.stretches_.push_back({index, k, k + 1});
+        std::vector<HoldOut::Stretch>& stretches = result.stretches_;
+        const bool goes_on = !stretches.empty() && stretches.back().segment == index && stretches.back().last == k &&
+                             k - stretches.back().first < period;
+        if (!goes_on) stretches.push_back({index, k, k});
+        stretches.back().last = k + 1;
       }
       position += segment.size();
     }
@@ -66,10 +61,6 @@ std::optional<HoldOut> splitHoldOut(const Records& records, double stiffness_to_
   const double mean = sum / result.samples_;
   result.deviation_ = std::sqrt(std::max(0.0, squares / result.samples_ - mean * mean));
   return result;
-}
-
-std::vector<double> HoldOut::stretchErrors(const Residuals& residuals) const {
-  return stretchLosses(residuals, std::numeric_limits<double>::infinity());
 }
 
 std::vector<double> HoldOut::stretchLosses(const Residuals& residuals, double outlier) const {
@@ -108,8 +99,9 @@ double HoldOut::trainingError(const Residuals& residuals) const {
   return joined(training).dot(joined(residuals).cwiseAbs2());
 }
 
-double HoldOut::rmse(const std::vector<double>& stretch_errors) const {
-  return std::sqrt(std::accumulate(stretch_errors.begin(), stretch_errors.end(), 0.0) / samples_);
+double HoldOut::rmse(const Residuals& residuals) const {
+  const std::vector<double> squares = stretchLosses(residuals);
+  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / samples_);
 }
 
 }  // namespace suspension_health_monitor

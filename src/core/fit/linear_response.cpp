@@ -2,16 +2,12 @@
 
 #include <cmath>
 
-#include "parameterization.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kMotionStep = 1e-4;  // of the rms motion, for the slopes of the force
-
-}  // namespace
 
 MotionScale scaleOf(const SegmentedMotion& motion, double stiffness_to_mass) {
   double travel = 0.0, travel_rate = 0.0;
@@ -38,7 +34,7 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit) : pe
                                  force.force(states[k].travel, states[k].travel_rate, time, states[k].memory.data())});
       memory.push_back(states[k].memory);
     }
-    motion_.ends.push_back(motion_.samples.size());
+    motion_.begins.push_back(motion_.samples.size());
     if (!segments_.empty()) motion_.rests.push_back(restBetween(*segments_.back(), *segment));
     segments_.push_back(segment);
   }
@@ -59,14 +55,13 @@ LinearResponse::LinearResponse(const Records& records, const ModelFit& fit) : pe
 Eigen::VectorXd forceAlong(const ForceEffect& effect, const std::vector<double>& shapes,
                            const SegmentedMotion& motion) {
   const StrutModel alone{0.0, 0.0, {{effect, 1.0, shapes}}, {}};
-  const auto& [samples, ends, rests] = motion;
+  const auto& [samples, begins, rests] = motion;
   Eigen::VectorXd force(samples.size());
   std::array<Memory, kMostEffects> memory{};
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    const std::size_t end = ends[i];
+  for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
+    const std::size_t end = begins[i + 1];
     if (i > 0) keepLasting(alone, rests.empty() ? -1.0 : rests[i - 1], memory);
-    for (; k < end; ++k) {
+    for (std::size_t k = begins[i]; k < end; ++k) {
       StrutMotion here = samples[k];
       here.memory = memory[0];
       force[k] = effect.force(here, shapes.data());
@@ -90,11 +85,10 @@ Eigen::MatrixXd forcesAlong(const StrutModel& model, const SegmentedMotion& moti
 Eigen::VectorXd LinearResponse::respond(const Eigen::VectorXd& force) const {
   Eigen::VectorXd response(numSamples());
   const double half = period_ / 2.0;
-  std::size_t k = 0;
-  for (const DriveSegment* segment : segments_) {
+  for (std::size_t s = 0; s < segments_.size(); ++s) {
     double x = 0.0, rate = 0.0;
-    const std::size_t begin = k, end = begin + segment->size();
-    for (; k < end; ++k) {
+    const std::size_t begin = motion_.begins[s], end = motion_.begins[s + 1];
+    for (std::size_t k = begin; k < end; ++k) {
       const double f = force[k];
       if (k > begin) {
         // x1 = x + half (rate + rate1), rate1 = rate + half (acceleration + acceleration1)
@@ -107,7 +101,7 @@ Eigen::VectorXd LinearResponse::respond(const Eigen::VectorXd& force) const {
       response[k] = slope_travel_[k] * x + slope_rate_[k] * rate + f;
     }
     auto passed = response.segment(begin, end - begin);
-    passed = lowPassed(segment->taps, passed);
+    passed = lowPassed(segments_[s]->taps, passed);
   }
   return response;
 }
@@ -118,18 +112,15 @@ Eigen::MatrixXd LinearResponse::readingSlopes(const MeasurementEffect& effect) c
   for (std::size_t i = 0; i < count; ++i) {
     const double step = effect.scale(sizes_, i);
     if (!std::isfinite(step)) continue;  // a channel that is not known
-    std::vector<double> coefficients(count, 0.0);
-    std::size_t begin = 0;
     for (std::size_t s = 0; s < segments_.size(); ++s) {
-      const std::size_t end = motion_.ends[s];
-      std::vector<double> before(predicted_.begin() + begin, predicted_.begin() + end);
-      std::vector<double> after = before;
-      coefficients[i] = -step;
-      effect.apply(coefficients.data(), segments_[s]->body, period_, before);
-      coefficients[i] = step;
-      effect.apply(coefficients.data(), segments_[s]->body, period_, after);
-      for (std::size_t k = 0; k < after.size(); ++k) slopes(begin + k, i) = (after[k] - before[k]) / (2.0 * step);
-      begin = end;
+      const std::size_t begin = motion_.begins[s], end = motion_.begins[s + 1];
+      const auto readWith = [&](double coefficient) {
+        std::vector<double> coefficients(count, 0.0), series(predicted_.begin() + begin, predicted_.begin() + end);
+        coefficients[i] = coefficient;
+        effect.apply(coefficients.data(), segments_[s]->body, period_, series);
+        return joined<double>({series});
+      };
+      slopes.col(i).segment(begin, end - begin) = (readWith(step) - readWith(-step)) / (2.0 * step);
     }
   }
   return slopes;

@@ -7,15 +7,13 @@
 #include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-namespace {
 
 constexpr double kForgotten = 1.0 / 3.0;  // of the natural frequency: what is slower is not integrated
 constexpr double kPadding = 6.0;          // times of the slowest frequency that is: ends do not reach each other,
                                           // or as many samples as there are: then no integral reaches further
 
-}  // namespace
-
-MotionError motionError(const std::vector<double>& residual, double mean, double period, double stiffness_to_mass) {
+std::pair<std::vector<double>, std::vector<double>> motionError(const std::vector<double>& residual, double mean,
+                                                                double period, double stiffness_to_mass) {
   const std::size_t count = residual.size();
   const double slowest = kForgotten * std::sqrt(stiffness_to_mass);
   const double padding = std::min(kPadding / (slowest * period), static_cast<double>(count));
@@ -34,12 +32,12 @@ MotionError motionError(const std::vector<double>& residual, double mean, double
     twice[i] = -spectrum[i] * kept / square(omega);
   }
   once[length / 2] = 0.0;  // imaginary, which a real signal cannot have there
-  MotionError error;
-  fft.inv(error.travel_rate, once);
-  fft.inv(error.travel, twice);
-  error.travel_rate.resize(count);
-  error.travel.resize(count);
-  return error;
+  std::vector<double> travel, travel_rate;
+  fft.inv(travel_rate, once);
+  fft.inv(travel, twice);
+  travel_rate.resize(count);
+  travel.resize(count);
+  return {std::move(travel), std::move(travel_rate)};
 }
 
 }  // namespace suspension_health_monitor

@@ -1,10 +1,10 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
@@ -18,19 +18,26 @@ constexpr std::size_t kWindow = 128;  // samples
 constexpr std::size_t kAtLimit = 4;   // frequencies below half the rate, a sixteenth of all
 constexpr double kNone = 0.01;        // of the mean: where a filter leaves less of the noise it tells nothing
 
-/// Mean power by frequency, without that of a constant.
-std::vector<double> powerOf(const Residuals& residuals) {
-  Periodogram periodogram(kWindow);
+/// Power by frequency, 0 to half the rate, summed over windows: one column for each of `parts` parts of the residuals.
+/// That of a constant is left out.
+Eigen::ArrayXXd sumsOfPower(const Residuals& residuals, std::size_t length, std::size_t parts) {
+  const std::vector<std::size_t> sizes = sizesOf(residuals);
+  const std::size_t windows = Periodogram::windowsIn(sizes, length);
+  Periodogram periodogram(length);
   Spectrum spectrum;
-  std::vector<double> power(kWindow / 2, 0.0);
-  double windows = 0.0;
-  Periodogram::forEachWindow(sizesOf(residuals), kWindow, [&](std::size_t segment, std::size_t first) {
+  Eigen::ArrayXXd sums = Eigen::ArrayXXd::Zero(length / 2 + 1, parts);
+  std::size_t window = 0;
+  Periodogram::forEachWindow(sizes, length, [&](std::size_t segment, std::size_t first) {
     periodogram.of(&residuals[segment][first], spectrum);
-    for (std::size_t f = 1; f <= power.size(); ++f) power[f - 1] += std::norm(spectrum[f]);
-    windows += 1.0;
+    auto sum = sums.col(window++ * parts / windows);
+    for (std::size_t f = 1; f <= length / 2; ++f) sum[f] += std::norm(spectrum[f]);
   });
-  for (double& each : power) each /= std::max(1.0, windows);
-  return power;
+  return sums;
+}
+
+Eigen::ArrayXd meanPower(const Residuals& residuals) {
+  const auto windows = static_cast<double>(Periodogram::windowsIn(sizesOf(residuals), kWindow));
+  return sumsOfPower(residuals, kWindow, 1) / std::max(1.0, windows);
 }
 
 /// What the noise of all sensors leaves of a linear model's free run.
@@ -42,7 +49,7 @@ FitOutcome residualsOfNoise(const std::vector<CornerSample>& noise, double perio
 
 /// rms of white noise that is as dense as w'' just below half the rate.
 double levelAtLimit(const Records& records) {
-  const std::vector<double> power = powerOf(seriesOf(segmentsOf(records), &DriveSegment::unsprung));
+  const Eigen::ArrayXd power = meanPower(seriesOf(segmentsOf(records), &DriveSegment::unsprung));
   const double at_limit = std::accumulate(power.end() - 1 - kAtLimit, power.end() - 1, 0.0) / kAtLimit;
   return std::sqrt(at_limit / Periodogram(kWindow).taperPower());
 }
@@ -52,43 +59,13 @@ constexpr std::size_t kParts = 4;  // of the drives, in each of which noise is t
 constexpr std::array kRatios{1.0, 0.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0};
 constexpr std::size_t kWindowsOfPart = 12;  // at least, for an average over them
 
-/// Spectra of the residuals in each part of the drives.
-struct PartSpectra {
-  std::size_t length;  // of a window
-  std::vector<std::vector<double>> parts;
-  double averages;  // independent ones in each
-  double unit;      // the sum over parts and frequencies that white noise of variance 1 has
-};
-
-std::optional<PartSpectra> spectraOf(const Residuals& residuals, double natural_period) {
-  const std::vector<std::size_t> sizes = sizesOf(residuals);
-  const std::size_t length = Periodogram::lengthFor(sizes, natural_period, kParts * kWindowsOfPart);
-  const std::size_t windows = Periodogram::windowsIn(sizes, length);
-  if (windows < kParts * kWindowsOfPart) return std::nullopt;
-  PartSpectra spectra{length, {kParts, std::vector<double>(length / 2, 0.0)}, 0.0, 0.0};
-  spectra.averages = Periodogram::kIndependent * static_cast<double>(windows / kParts);
-  Periodogram periodogram(length);
-  Spectrum spectrum;
-  std::size_t window = 0;
-  Periodogram::forEachWindow(sizes, length, [&](std::size_t segment, std::size_t first) {
-    std::vector<double>& power = spectra.parts[window++ * kParts / windows];
-    periodogram.of(&residuals[segment][first], spectrum);
-    for (std::size_t f = 1; f < length / 2; ++f) power[f] += std::norm(spectrum[f]);
-  });
-  spectra.unit = static_cast<double>(windows) * static_cast<double>(length / 2 - 1) * periodogram.taperPower();
-  return spectra;
-}
-
-/// @return the most power that white noise of a sensor can have at one frequency, in units of the spectra: the lowest
-/// that its readings show at any, 3 standard deviations of an average above it.
-double mostNoise(const PartSpectra& readings) {
+/// @param readings  sums of their power in each part.  @param averages  independent ones in each.
+/// @return the most power that white noise of a sensor can have at one frequency: the lowest that its readings show at
+/// any, 3 standard deviations of an average above it.
+double mostNoise(const Eigen::ArrayXXd& readings, double averages) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t f = 1; f < readings.length / 2; ++f) {
-    double sum = 0.0;
-    for (const std::vector<double>& power : readings.parts) sum += power[f];
-    lowest = std::min(lowest, sum / kParts);
-  }
-  return lowest / (1.0 - kProven / std::sqrt(kParts * readings.averages));
+  for (Eigen::Index f = 1; f + 1 < readings.rows(); ++f) lowest = std::min(lowest, readings.row(f).sum() / kParts);
+  return lowest / (1.0 - kProven / std::sqrt(kParts * averages));
 }
 
 /// Noise of a sensor that is louder than the other's, or that a sensor has filtered, as most do inside: white within a
@@ -105,25 +82,28 @@ double mostNoise(const PartSpectra& readings) {
 /// @return its rms as a share of the residual's; 0 if there are too few samples to tell.
 NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double period, const StrutModel& model) {
   const double natural_period = 2.0 * M_PI / (std::sqrt(model.stiffness_to_mass) * period);
-  const std::optional<PartSpectra> spectra = spectraOf(residuals, natural_period);
-  if (!spectra) return {};
-  const std::size_t count = spectra->length / 2;
+  const std::vector<std::size_t> sizes = sizesOf(residuals);
+  const std::size_t length = Periodogram::lengthFor(sizes, natural_period, kParts * kWindowsOfPart);
+  const std::size_t windows = Periodogram::windowsIn(sizes, length), count = length / 2;
+  if (windows < kParts * kWindowsOfPart) return {};
+  const double averages = Periodogram::kIndependent * static_cast<double>(windows / kParts);  // of each part
+  const Eigen::ArrayXXd spectra = sumsOfPower(residuals, length, kParts);
   std::vector<double> gain(count), resistance(count);  // |G|^2, and the sum of 1 / S over the parts
   double all = 0.0;
   for (std::size_t f = 1; f < count; ++f) {
-    const double frequency = static_cast<double>(f) / (static_cast<double>(spectra->length) * period);
+    const double frequency = static_cast<double>(f) / (static_cast<double>(length) * period);
     gain[f] = square(transmissibility(model.damping_to_mass, model.stiffness_to_mass, frequency));
-    for (const std::vector<double>& power : spectra->parts) {
-      if (!(power[f] > 0.0)) return {};
-      resistance[f] += 1.0 / power[f];
-      all += power[f];
+    for (const double power : spectra.row(f)) {
+      if (!(power > 0.0)) return {};
+      resistance[f] += 1.0 / power;
+      all += power;
     }
   }
   // A sensor passes what the strut does: the band begins below its natural frequency and goes beyond twice that.
-  const auto natural = static_cast<std::size_t>(static_cast<double>(spectra->length) / natural_period);
-  const double most = mostNoise(*spectraOf(wheel, natural_period));
+  const auto natural = static_cast<std::size_t>(static_cast<double>(length) / natural_period);
+  const double most = mostNoise(sumsOfPower(wheel, length, kParts), averages);
   // Chance lets one r fit a little better than the true one: what is larger by chance only is not taken.
-  const double beyond_chance = 1.0 + kProven / std::sqrt(kParts * spectra->averages * static_cast<double>(count));
+  const double beyond_chance = 1.0 + kProven / std::sqrt(kParts * averages * static_cast<double>(count));
   double white = 0.0, louder = 1.0;
   for (const double r : kRatios) {
     double largest = 0.0;
@@ -142,9 +122,11 @@ NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double 
     louder = r;
   }
   // By this factor the mean of 1 / S is too large where S is an average over so many windows.
-  const double scatter = spectra->averages / (spectra->averages - 1.0);
+  const double scatter = averages / (averages - 1.0);
   // Of the residuals' power the spectra lack what is slower than the windows are long: an offset, and what wanders.
-  const double shown = all / spectra->unit, whole = meanSquare(residuals);
+  // White noise of variance 1 has the sum `unit`.
+  const double unit = static_cast<double>(windows) * static_cast<double>(count - 1) * Periodogram(length).taperPower();
+  const double shown = all / unit, whole = meanSquare(residuals);
   const double slow = whole > shown ? 1.0 - shown / whole : 0.0;
   return {std::sqrt(std::min(1.0, scatter * white / all) * (1.0 - slow)), louder};
 }
@@ -165,10 +147,10 @@ double floorOfKnownNoise(const Records& records, const StrutModel& model) {
   const FitOutcome fit = withoutFit(records, model);
   const FitOutcome noise = residualsOfNoise(records.front()->noise(), records.front()->period(), model);
   if (!fit || !noise) return 0.0;
-  const std::vector<double> residual = powerOf(fit->residuals), known = powerOf(noise->residuals);
-  const double mean = std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
+  const Eigen::ArrayXd residual = meanPower(fit->residuals), known = meanPower(noise->residuals);
+  const double mean = std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(kWindow / 2);
   std::vector<double> levels;
-  for (std::size_t f = 0; f < known.size(); ++f)
+  for (Eigen::Index f = 0; f < known.size(); ++f)
     if (known[f] > kNone * mean) levels.push_back(residual[f] / known[f]);
   return std::sqrt(median(levels)) * std::sqrt(meanSquare(noise->residuals));
 }

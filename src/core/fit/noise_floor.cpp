@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,30 +38,31 @@ std::vector<Place> choosePlaces(const Segments& segments) {
   return chosen;
 }
 
+double deviationOf(const Eigen::VectorXd& error) {
+  return robustDeviation({error.data(), error.data() + error.size()});
+}
+
 /// A robust linear regression.
-struct Regression {
-  Eigen::VectorXd solution, error;
-
-  Regression(const Eigen::MatrixXd& rows, const Eigen::VectorXd& measured) {
-    Eigen::VectorXd weight = Eigen::VectorXd::Ones(measured.size());
-    for (int pass = 0; pass <= kReweightings; ++pass) {
-      const Eigen::MatrixXd weighted = weight.asDiagonal() * rows;
-      Eigen::MatrixXd gram = rows.transpose() * weighted;
-      gram.diagonal().array() += 1e-12 * gram.trace();  // for columns that are 0
-      solution = solveSymmetric(gram, weighted.transpose() * measured);
-      error = measured - rows * solution;
-      if (deviation() == 0.0) return;
-      const double outlier = kOutlierScale * deviation();
-      weight = error.unaryExpr([&](double e) { return 1.0 / (1.0 + square(square(e / outlier))); });
-    }
+/// @return the solution, and what it leaves.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> regressed(const Eigen::MatrixXd& rows, const Eigen::VectorXd& measured) {
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(measured.size()), solution, error;
+  for (int pass = 0; pass <= kReweightings; ++pass) {
+    const Eigen::MatrixXd weighted = weight.asDiagonal() * rows;
+    Eigen::MatrixXd gram = rows.transpose() * weighted;
+    gram.diagonal().array() += 1e-12 * gram.trace();  // for columns that are 0
+    solution = solveSymmetric(gram, weighted.transpose() * measured);
+    error = measured - rows * solution;
+    const double outlier = kOutlierScale * deviationOf(error);
+    if (outlier == 0.0) break;
+    weight = error.unaryExpr([&](double e) { return 1.0 / (1.0 + square(square(e / outlier))); });
   }
-
-  double deviation() const { return robustDeviation({error.data(), error.data() + error.size()}); }
-};
+  return {solution, error};
+}
 
 /// z'' from its neighbours, from the wheel's motion during the steps around it (which stands for w''), and a constant.
-/// @param series  z'' per segment.
-Regression interpolated(const Segments& segments, const std::vector<Place>& places, const Series& series) {
+/// @param series  z'' per segment.  @return as regressed().
+std::pair<Eigen::VectorXd, Eigen::VectorXd> interpolated(const Segments& segments, const std::vector<Place>& places,
+                                                         const Series& series) {
   Eigen::MatrixXd rows(places.size(), kTerms);
   Eigen::VectorXd measured(rows.rows());
   for (Eigen::Index r = 0; r < rows.rows(); ++r) {
@@ -78,7 +80,7 @@ Regression interpolated(const Segments& segments, const std::vector<Place>& plac
     rows(r, kTerms - 1) = 1.0;
     measured[r] = *y;
   }
-  return Regression(rows, measured);
+  return regressed(rows, measured);
 }
 
 /// Laws that a model may lack, along its free run: a free-form force of travel rate, with nodes that lie closer the
@@ -90,18 +92,18 @@ class FreeFormLaws {
   /// The motion of the free run, corrected by what its residual says: the forces that are missing move the strut.
   /// @return false if the model runs away, or nothing moves.
   bool run(const StrutModel& model) {
+    const auto residuals = freeRunResiduals(model, segments_, std::vector<StrutState>(segments_.size()), &motion_);
+    if (!residuals) return false;
     double count = 0.0;
-    std::vector<double> residual;
-    for (const DriveSegment* segment : segments_) {
-      std::vector<StrutState>& states = motion_.emplace_back();
-      if (!runFree(model, *segment, {}, residual, &states)) return false;
-      for (std::size_t k = 0; k < residual.size(); ++k) residual[k] = segment->sprung[k] - residual[k];
-      const MotionError error = motionError(residual, meanOf({residual}), segment->period, model.stiffness_to_mass);
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+      const std::vector<double>& residual = (*residuals)[s];
+      const auto [travel_error, rate_error] =
+          motionError(residual, meanOf({residual}), segments_[s]->period, model.stiffness_to_mass);
       for (std::size_t k = 0; k < residual.size(); ++k) {
-        travel_ += square(states[k].travel -= error.travel[k]);
-        travel_rate_ += square(states[k].travel_rate -= error.travel_rate[k]);
+        travel_ += square(motion_[s][k].travel -= travel_error[k]);
+        travel_rate_ += square(motion_[s][k].travel_rate -= rate_error[k]);
       }
-      count += static_cast<double>(segment->size());
+      count += static_cast<double>(residual.size());
     }
     for (double* sum : {&travel_, &travel_rate_}) *sum = std::sqrt(*sum / count);
     return travel_ > 0.0 && travel_rate_ > 0.0;
@@ -148,7 +150,7 @@ class FreeFormLaws {
   }
 
   const Segments& segments_;
-  std::vector<std::vector<StrutState>> motion_;
+  FreeMotion motion_;
   double travel_ = 0.0, travel_rate_ = 0.0;  // rms
 };
 
@@ -158,17 +160,17 @@ double unpredicted(const Segments& segments, const StrutModel& model) {
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return 0.0;
   Series series = seriesOf(segments, &DriveSegment::sprung);
-  Regression interpolation = interpolated(segments, places, series);
-  const double plain = interpolation.deviation() * std::sqrt(count / (count - kTerms));
+  auto [weights, error] = interpolated(segments, places, series);
+  const double plain = deviationOf(error) * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
   if (count <= 2.0 * (kTerms + kLawTerms) || !laws.run(model)) return plain;
   double deviation = 0.0;
   for (int round = 1;; ++round) {
-    const Regression fit(laws.interpolated(places, interpolation.solution), interpolation.error);
-    deviation = fit.deviation() * std::sqrt(count / (count - kTerms - kLawTerms));
+    const auto [coefficients, left] = regressed(laws.interpolated(places, weights), error);
+    deviation = deviationOf(left) * std::sqrt(count / (count - kTerms - kLawTerms));
     if (round == kRounds) break;
-    laws.takeOff(fit.solution, series);
-    interpolation = interpolated(segments, places, series);
+    laws.takeOff(coefficients, series);
+    std::tie(weights, error) = interpolated(segments, places, series);
   }
   return std::min(plain, deviation);
 }
@@ -194,8 +196,8 @@ double lostInSampling(const Records& records, const ModelFit& fit) {
   Series predicted = seriesOf(segments, &DriveSegment::sprung);
   for (std::size_t s = 0; s < predicted.size(); ++s)
     for (std::size_t k = 0; k < predicted[s].size(); ++k) predicted[s][k] -= fit.residuals[s][k];
-  const Regression interpolation = interpolated(segments, places, predicted);
-  const double lost = std::sqrt(interpolation.error.squaredNorm() / (count - kTerms));
+  const Eigen::VectorXd error = interpolated(segments, places, predicted).second;
+  const double lost = std::sqrt(error.squaredNorm() / (count - kTerms));
   return ofBothSensors(lost, records.front()->period(), fit.model);
 }
 

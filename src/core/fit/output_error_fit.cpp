@@ -2,13 +2,12 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
+#include <memory>
 
 #include "parameterization.h"
-#include "segment_cost.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/model/free_run.h"
@@ -16,6 +15,51 @@
 
 namespace suspension_health_monitor {
 namespace {
+
+/// What a run from rest, the effects not acting yet, shows of the drives: rms values.
+struct DriveSizes {
+  MotionScale motion;
+  std::vector<double> forces;  ///< of the effects, per unit of their coefficient
+  ReadingSizes reading;  ///< of what is fitted only, the residual robust; of the body 0 where a channel is not known
+};
+
+/// @return nothing if the model runs away or there is nothing to fit.
+std::optional<DriveSizes> measureSizes(const Segments& segments, const std::vector<SampleMask>& masks,
+                                       const StrutModel& start) {
+  StrutModel linear = start;  // the effects' memories run along
+  for (ActiveEffect& active : linear.effects) active.coefficient = 0.0;
+  FreeMotion motion;
+  const auto residuals = freeRunResiduals(linear, segments, std::vector<StrutState>(segments.size()), &motion);
+  if (!residuals) return std::nullopt;
+  DriveSizes sizes;
+  sizes.forces.resize(start.effects.size(), 0.0);
+  double count = 0.0;
+  std::vector<double> fitted;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const DriveSegment& segment = *segments[s];
+    count += static_cast<double>(segment.size());
+    for (std::size_t k = 0; k < segment.size(); ++k) {
+      const StrutState& state = motion[s][k];
+      sizes.motion.travel += square(state.travel);
+      sizes.motion.travel_rate += square(state.travel_rate);
+      for (std::size_t j = 0; j < start.effects.size(); ++j) {
+        const auto& [effect, coefficient, shapes] = start.effects[j];
+        const StrutMotion here{state.travel, state.travel_rate, segment.timeDriven(k), state.memory[j]};
+        sizes.forces[j] += square(effect.force(here, shapes.data()));
+      }
+      if (!masks.empty() && masks[s][k] == 0) continue;
+      sizes.reading.y += square(segment.sprung[k]);
+      fitted.push_back((*residuals)[s][k]);
+    }
+  }
+  if (fitted.empty()) return std::nullopt;
+  sizes.motion = {std::sqrt(sizes.motion.travel / count), std::sqrt(sizes.motion.travel_rate / count),
+                  1.0 / std::sqrt(start.stiffness_to_mass)};
+  for (double& sum : sizes.forces) sum = std::sqrt(sum / count);
+  const double y = std::sqrt(sizes.reading.y / static_cast<double>(fitted.size()));
+  sizes.reading = {robustDeviation(std::move(fitted)), y, segments.front()->period, bodySizes(segments)};
+  return sizes;
+}
 
 /// @return nothing if an effect never acts in these drives, or a fault of the measurement cannot show in them.
 std::optional<std::vector<double>> coefficientScales(const StrutModel& start, const DriveSizes& sizes) {
@@ -36,27 +80,46 @@ std::optional<std::vector<double>> coefficientScales(const StrutModel& start, co
   return scales;
 }
 
+bool hasLasting(const StrutModel& model) {
+  return std::any_of(model.effects.begin(), model.effects.end(),
+                     [](const ActiveEffect& active) { return active.effect.lasts; });
+}
+
+/// Gives every segment the memories that last (ForceEffect::lasts) from the run over those before it, less what the
+/// time between them takes. Nothing happens where none lasts.
+/// @param states  that the segments begin with; the memories are replaced.
+void carryMemories(const StrutModel& model, const Segments& segments, std::vector<StrutState>& states) {
+  if (!hasLasting(model)) return;
+  std::vector<double> predicted;
+  std::vector<StrutState> motion;
+  for (std::size_t s = 0; s + 1 < segments.size(); ++s) {
+    if (!runFree(model, *segments[s], states[s], predicted, &motion)) return;
+    states[s + 1].memory = motion.back().memory;
+    keepLasting(model, restBetween(*segments[s], *segments[s + 1]), states[s + 1].memory);
+  }
+}
+
 /// The model's numbers and the state that every segment begins with, as the solver finds them together.
 class OutputErrorProblem {
  public:
-  /// @param states  a first guess.  @param outlier  where a residual begins to count as one [m/s^2].
+  /// @param masks  none: all samples.  @param outlier  where a residual begins to count as one [m/s^2].
+  /// @param states  a first guess.
   /// The arguments must outlive this object.
   OutputErrorProblem(const Segments& segments, const std::vector<SampleMask>& masks, const Parameterization& parameters,
                      double outlier, const std::vector<StrutState>& states)
-      : parameters_(parameters),
+      : segments_(segments),
+        parameters_(parameters),
+        outlier_(outlier),
         states_(states),
-        memories_(segments, states),
         model_(parameters.initial()),
         initial_(segments.size()) {
     const auto inUnits = [](double value, double unit) { return value == 0.0 ? 0.0 : value / unit; };  // which may be 0
     for (std::size_t s = 0; s < segments.size(); ++s) {
       initial_[s] = {inUnits(states[s].travel, parameters.motion().travel),
                      inUnits(states[s].travel_rate, parameters.motion().travel_rate)};
-      const SampleMask* mask = maskOf(masks, s);
-      // Ceres takes no residual block of nothing.
-      if (mask != nullptr && std::none_of(mask->begin(), mask->end(), [](auto used) { return used != 0; })) continue;
-      problem_.AddResidualBlock(new SegmentCost(segments, s, mask, parameters, outlier, memories_), nullptr,
-                                model_.data(), initial_[s].data());
+      auto cost = std::make_unique<Cost>(*this, s, masks);
+      if (cost->num_residuals() > 0)  // Ceres takes no residual block of nothing
+        problem_.AddResidualBlock(cost.release(), nullptr, model_.data(), initial_[s].data());
     }
   }
 
@@ -119,11 +182,90 @@ class OutputErrorProblem {
   }
 
  private:
+  /// Residuals of one segment. Parameter blocks: the model, the segment's initial travel and travel rate.
+  class Cost : public ceres::CostFunction {
+   public:
+    Cost(OutputErrorProblem& problem, std::size_t index, const std::vector<SampleMask>& masks)
+        : problem_(problem), index_(index) {
+      for (std::size_t k = 0; k < problem.segments_[index]->size(); ++k)
+        if (masks.empty() || masks[index][k] != 0) used_.push_back(k);
+      set_num_residuals(static_cast<int>(used_.size()));
+      mutable_parameter_block_sizes()->push_back(problem.parameters_.size());
+      mutable_parameter_block_sizes()->push_back(2);
+    }
+
+    bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+      Eigen::VectorXd shared = Eigen::Map<const Eigen::VectorXd>(x[0], problem_.parameters_.size());
+      Eigen::VectorXd local = Eigen::Map<const Eigen::VectorXd>(x[1], 2);
+      Eigen::VectorXd base(num_residuals());
+      if (!evaluate(shared, local, base)) return false;
+      Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = base.unaryExpr([this](double r) { return damp(r); });
+      if (jacobians == nullptr) return true;
+      if (jacobians[0] != nullptr) differentiate(shared, local, shared, base, jacobians[0]);
+      if (jacobians[1] != nullptr) differentiate(shared, local, local, base, jacobians[1]);
+      return true;
+    }
+
+   private:
+    bool evaluate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& residuals) const {
+      StrutModel model = problem_.parameters_.model(shared.data());
+      const MotionScale& unit = problem_.parameters_.motion();
+      const StrutState state{local[0] * unit.travel, local[1] * unit.travel_rate, problem_.memoriesAt(index_, model)};
+      std::vector<double> predicted;
+      if (!runFree(model, *problem_.segments_[index_], state, predicted)) return false;
+      const std::vector<double>& sprung = problem_.segments_[index_]->sprung;
+      for (std::size_t i = 0; i < used_.size(); ++i) residuals[i] = sprung[used_[i]] - predicted[used_[i]];
+      return true;
+    }
+
+    /// Derivative of the damped residuals with respect to `varied`, one of the two others. Row by row.
+    void differentiate(const Eigen::VectorXd& shared, const Eigen::VectorXd& local, Eigen::VectorXd& varied,
+                       const Eigen::VectorXd& base, double* jacobian) const {
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      Eigen::Map<RowMajor> columns(jacobian, num_residuals(), varied.size());
+      Eigen::VectorXd moved(num_residuals());
+      for (Eigen::Index i = 0; i < varied.size(); ++i) {
+        const double kept = varied[i];
+        double step = kDifferenceStep * std::max(1.0, std::abs(kept));
+        varied[i] = kept + step;
+        if (!evaluate(shared, local, moved)) {  // at the edge of stability: look the other way
+          step = -step;
+          varied[i] = kept + step;
+          if (!evaluate(shared, local, moved)) moved = base;  // on a ridge: it stays where it is
+        }
+        varied[i] = kept;
+        for (int k = 0; k < num_residuals(); ++k) columns(k, i) = (moved[k] - base[k]) / step * dampSlope(base[k]);
+      }
+    }
+
+    // Smooth Huber loss as a change of the residual: half its square is a^2 (sqrt(1 + (r/a)^2) - 1).
+    double damp(double r) const { return r * std::sqrt(2.0 / (1.0 + spread(r))); }
+    double dampSlope(double r) const { return std::sqrt((1.0 + spread(r)) / 2.0) / spread(r); }
+    double spread(double r) const { return std::sqrt(1.0 + square(r / problem_.outlier_)); }
+
+    OutputErrorProblem& problem_;
+    std::size_t index_;
+    std::vector<std::size_t> used_;  // samples
+  };
+
+  /// @return the memories that a segment begins with. Costs ask segment by segment for the same models again and again.
+  const std::array<Memory, kMostEffects>& memoriesAt(std::size_t segment, StrutModel& model) {
+    if (segment == 0 || !hasLasting(model)) return states_[segment].memory;
+    std::vector<double> numbers;
+    for (const double* number : valuesOf(model)) numbers.push_back(*number);
+    if (known_.size() > 2 * numbers.size()) known_.clear();  // a point and its derivatives, and the point before
+    const auto [known, is_new] = known_.try_emplace(std::move(numbers), states_);
+    if (is_new) carryMemories(model, segments_, known->second);
+    return known->second[segment].memory;
+  }
+
+  const Segments& segments_;
   const Parameterization& parameters_;
+  double outlier_;
   const std::vector<StrutState>& states_;
-  CarriedMemories memories_;
-  Eigen::VectorXd model_;                       // the numbers of the parameterization
-  std::vector<std::array<double, 2>> initial_;  // travel and travel rate, in units of the motion
+  std::map<std::vector<double>, std::vector<StrutState>> known_;  // states with their memories, by the model's numbers
+  Eigen::VectorXd model_;                                         // the numbers of the parameterization
+  std::vector<std::array<double, 2>> initial_;                    // travel and travel rate, in units of the motion
   ceres::Problem problem_;
 };
 
@@ -183,11 +325,13 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
 }
 
 std::optional<Residuals> freeRunResiduals(const StrutModel& model, const Segments& segments,
-                                          const std::vector<StrutState>& initial) {
+                                          const std::vector<StrutState>& initial, FreeMotion* motion) {
   Residuals all;
+  if (motion != nullptr) motion->resize(segments.size());
   for (std::size_t s = 0; s < segments.size(); ++s) {
     std::vector<double>& residuals = all.emplace_back();
-    if (!runFree(model, *segments[s], initial[s], residuals)) return std::nullopt;
+    std::vector<StrutState>* const of_segment = motion != nullptr ? &(*motion)[s] : nullptr;
+    if (!runFree(model, *segments[s], initial[s], residuals, of_segment)) return std::nullopt;
     for (std::size_t k = 0; k < residuals.size(); ++k) residuals[k] = segments[s]->sprung[k] - residuals[k];
   }
   return all;
@@ -231,6 +375,18 @@ std::optional<std::vector<StrutState>> estimateInitialStates(const Records& reco
   return problem.initial();
 }
 
+std::array<double, kNumBodyChannels> bodySizes(const Segments& segments) {
+  std::array<double, kNumBodyChannels> sizes{};
+  double count = 0.0;
+  for (const DriveSegment* segment : segments) {
+    count += static_cast<double>(segment->size());
+    for (std::size_t c = 0; c < kNumBodyChannels; ++c)
+      for (const double value : segment->body[c]) sizes[c] += square(value);
+  }
+  for (double& size : sizes) size = std::sqrt(size / count);
+  return sizes;
+}
+
 double meanOf(const Residuals& residuals) {
   const Eigen::VectorXd all = joined(residuals);
   return all.size() > 0 ? all.mean() : 0.0;
@@ -242,8 +398,7 @@ double meanSquare(const Residuals& residuals) {
 }
 
 FitOutcome withoutFit(const Records& records, const StrutModel& model) {
-  ModelFit fit;
-  fit.model = model;
+  ModelFit fit{model, {}, {}, {}, {}};
   const Segments segments = segmentsOf(records);
   if (!addResiduals(segments, std::vector<StrutState>(segments.size()), fit)) return FitFailure::kRunsAway;
   return fit;

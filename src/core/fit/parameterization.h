@@ -2,89 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <optional>
-#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
-
-/// @return the mask of a segment; none if all samples are fitted.
-inline const SampleMask* maskOf(const std::vector<SampleMask>& masks, std::size_t segment) {
-  return masks.empty() ? nullptr : &masks[segment];
-}
-
-/// What a run from rest, the effects not acting yet, shows of the drives: rms values.
-struct DriveSizes {
-  MotionScale motion;
-  std::vector<double> forces;  ///< of the effects, per unit of their coefficient
-  ReadingSizes reading;  ///< of what is fitted only, the residual robust; of the body 0 where a channel is not known
-};
-
-/// @return rms of what else the body's IMU measured, by channel; 0 where it is not known.
-inline std::array<double, kNumBodyChannels> bodySizes(const Segments& segments) {
-  std::array<double, kNumBodyChannels> sizes{};
-  for (std::size_t c = 0; c < kNumBodyChannels; ++c) {
-    double count = 0.0;
-    for (const DriveSegment* segment : segments) {
-      for (const double value : segment->body[c]) sizes[c] += square(value);
-      count += static_cast<double>(segment->size());
-    }
-    sizes[c] = std::sqrt(sizes[c] / count);
-  }
-  return sizes;
-}
-
-/// Sums squares over one segment.
-inline void addSegment(const StrutModel& start, const DriveSegment& segment, const std::vector<StrutState>& motion,
-                       DriveSizes& sums) {
-  for (std::size_t k = 0; k < segment.size(); ++k) {
-    const StrutState& state = motion[k];
-    sums.motion.travel += square(state.travel);
-    sums.motion.travel_rate += square(state.travel_rate);
-    for (std::size_t j = 0; j < start.effects.size(); ++j) {
-      const auto& [effect, coefficient, shapes] = start.effects[j];
-      const StrutMotion here{state.travel, state.travel_rate, segment.timeDriven(k), state.memory[j]};
-      sums.forces[j] += square(effect.force(here, shapes.data()));
-    }
-  }
-}
-
-/// @return nothing if the model runs away or there is nothing to fit.
-inline std::optional<DriveSizes> measureSizes(const Segments& segments, const std::vector<SampleMask>& masks,
-                                              const StrutModel& start) {
-  StrutModel linear = start;  // the effects' memories run along
-  for (ActiveEffect& active : linear.effects) active.coefficient = 0.0;
-  DriveSizes sizes;
-  sizes.forces.resize(start.effects.size(), 0.0);
-  double count = 0.0;
-  std::vector<double> fitted, predicted;
-  std::vector<StrutState> motion;
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    const DriveSegment& segment = *segments[s];
-    if (!runFree(linear, segment, {}, predicted, &motion)) return std::nullopt;
-    addSegment(start, segment, motion, sizes);
-    count += static_cast<double>(segment.size());
-    const SampleMask* mask = maskOf(masks, s);
-    for (std::size_t k = 0; k < segment.size(); ++k) {
-      if (mask != nullptr && (*mask)[k] == 0) continue;
-      sizes.reading.y += square(segment.sprung[k]);
-      fitted.push_back(segment.sprung[k] - predicted[k]);
-    }
-  }
-  if (fitted.empty()) return std::nullopt;
-  sizes.motion = {std::sqrt(sizes.motion.travel / count), std::sqrt(sizes.motion.travel_rate / count),
-                  1.0 / std::sqrt(start.stiffness_to_mass)};
-  for (double& sum : sizes.forces) sum = std::sqrt(sum / count);
-  const double y = std::sqrt(sizes.reading.y / static_cast<double>(fitted.size()));
-  sizes.reading = {robustDeviation(std::move(fitted)), y, segments.front()->period, bodySizes(segments)};
-  return sizes;
-}
 
 // In the logarithm, between a start and the end of a range that is widened for it.
 inline constexpr double kRangeMargin = 0.02;
@@ -160,49 +83,6 @@ class Parameterization {
   MotionScale motion_;
   std::vector<Number> numbers_;
   Eigen::VectorXd initial_;
-};
-
-inline bool hasLasting(const StrutModel& model) {
-  return std::any_of(model.effects.begin(), model.effects.end(),
-                     [](const ActiveEffect& active) { return active.effect.lasts; });
-}
-
-/// Gives every segment the memories that last (ForceEffect::lasts) from the run over those before it, less what the
-/// time between them takes. Nothing happens where none lasts.
-/// @param states  that the segments begin with; the memories are replaced.
-inline void carryMemories(const StrutModel& model, const Segments& segments, std::vector<StrutState>& states) {
-  if (!hasLasting(model)) return;
-  std::vector<double> predicted;
-  std::vector<StrutState> motion;
-  for (std::size_t s = 0; s + 1 < segments.size(); ++s) {
-    if (!runFree(model, *segments[s], states[s], predicted, &motion)) return;
-    states[s + 1].memory = motion.back().memory;
-    keepLasting(model, restBetween(*segments[s], *segments[s + 1]), states[s + 1].memory);
-  }
-}
-
-/// The same for a fit, whose costs ask segment by segment for the same models again and again.
-class CarriedMemories {
- public:
-  /// @param states  travel and travel rate that the segments begin with, about.
-  CarriedMemories(const Segments& segments, std::vector<StrutState> states)
-      : segments_(segments), states_(std::move(states)) {}
-
-  /// @return of one segment, by kMostEffects.
-  const std::array<Memory, kMostEffects>& at(std::size_t segment, StrutModel& model) {
-    if (segment == 0 || !hasLasting(model)) return states_[segment].memory;
-    std::vector<double> numbers;
-    for (const double* number : valuesOf(model)) numbers.push_back(*number);
-    if (known_.size() > 2 * numbers.size()) known_.clear();  // a point and its derivatives, and the point before
-    const auto [known, is_new] = known_.try_emplace(std::move(numbers), states_);
-    if (is_new) carryMemories(model, segments_, known->second);
-    return known->second[segment].memory;
-  }
-
- private:
-  const Segments& segments_;
-  std::vector<StrutState> states_;
-  std::map<std::vector<double>, std::vector<StrutState>> known_;  // by the numbers of the model
 };
 
 }  // namespace suspension_health_monitor

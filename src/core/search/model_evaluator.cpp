@@ -42,6 +42,14 @@ void forEachInParallel(std::size_t count, int threads, const Work& work, const T
   }
 }
 
+EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) {
+  EvaluatedModel nothing = before;
+  nothing.ranked.fitted = nothing.ranked.significant = false;
+  nothing.ranked.failure = failure;
+  nothing.ranked.error_removed_percent = nothing.ranked.significance = nothing.training_gain = 0.0;
+  return nothing;
+}
+
 }  // namespace
 
 std::size_t complexity(const StrutModel& model) { return numbersOf(model).size() - 2; }
@@ -59,7 +67,7 @@ EvaluatedModel ModelEvaluator::weighed(const StrutModel& model, const Residuals&
   EvaluatedModel evaluated;
   evaluated.ranked.model = model;
   evaluated.ranked.effects = effectNames(model);
-  evaluated.ranked.held_out_rmse = held_out_.rmse(held_out_.stretchErrors(residuals));
+  evaluated.ranked.held_out_rmse = held_out_.rmse(residuals);
   // A model that was fitted can still run away in the stretches that were held out.
   if (!std::isfinite(evaluated.ranked.held_out_rmse)) evaluated.ranked.failure = FitFailure::kRunsAway;
   evaluated.stretches = held_out_.stretchLosses(residuals, outlier_);
@@ -95,26 +103,17 @@ FitFailure ModelEvaluator::againstPhysics(const ModelFit& fit) const {
   return FitFailure::kNone;
 }
 
-EvaluatedModel ModelEvaluator::failed(const EvaluatedModel& before, FitFailure failure) const {
-  EvaluatedModel nothing = before;
-  nothing.ranked.fitted = nothing.ranked.significant = false;
-  nothing.ranked.failure = failure;
-  nothing.ranked.error_removed_percent = nothing.ranked.significance = nothing.training_gain = 0.0;
-  return nothing;
-}
-
 EvaluatedModel ModelEvaluator::evaluate(const StrutModel& start, const std::vector<StrutState>& initial,
                                         const EvaluatedModel* before) const {
   const FitOutcome fit = fitOutputError(records_, held_out_.training, start, initial);
   const FitFailure failure = fit ? againstPhysics(*fit) : fit.failure;
   const auto without = [&](FitFailure why) { return failed(before != nullptr ? *before : EvaluatedModel(), why); };
   if (failure != FitFailure::kNone) return without(failure);
-  EvaluatedModel evaluated = weighed(fit->model, fit->residuals);
-  if (evaluated.ranked.failure != FitFailure::kNone) return without(evaluated.ranked.failure);
-  evaluated.fit = *fit;
-  evaluated.ranked.fitted = true;
-  evaluated.to_explain = before != nullptr ? before->to_explain : evaluated.loss;
-  if (before != nullptr) rank(*before, evaluated);
+  EvaluatedModel evaluated = asItIs(*fit);
+  if (!evaluated.ranked.fitted) return without(evaluated.ranked.failure);
+  if (before == nullptr) return evaluated;
+  evaluated.to_explain = before->to_explain;
+  rank(*before, evaluated);
   return evaluated;
 }
 
@@ -168,7 +167,7 @@ std::optional<EvaluatedModel> ModelEvaluator::screen(const MeasurementEffect& re
                                                      const EvaluatedModel& current) const {
   std::optional<ScreenedModel> screened = screening.screen(reading);
   if (lagged_ && lagged_->reading.front().effect.name == reading.name) {
-    StrutModel model = screening.model();
+    StrutModel model = current.fit.model;
     model.damping_to_mass = lagged_->damping_to_mass;
     model.stiffness_to_mass = lagged_->stiffness_to_mass;
     model.reading.push_back(lagged_->reading.front());

@@ -71,12 +71,6 @@ class ModelEvaluator {
   /// number of candidates.
   bool isWorthHaving(const EvaluatedModel& before, const EvaluatedModel& after) const;
 
-  LinearResponse motionOf(const EvaluatedModel& evaluated) const { return {records_, evaluated.fit}; }
-  double surfaceGain(const EvaluatedModel& evaluated) const {
-    return Screening(records_, held_out_, evaluated.fit).surfaceGain();
-  }
-  const HoldOut& heldOut() const { return held_out_; }
-
  private:
   std::vector<EvaluatedModel> screenAll(const EvaluatedModel& current, const Tick& tick) const;
   void fitAll(const std::vector<std::size_t>& wanted, const EvaluatedModel& current,
@@ -88,7 +82,6 @@ class ModelEvaluator {
   EvaluatedModel expected(const std::string& added, const ScreenedModel& screened, const EvaluatedModel& current) const;
   EvaluatedModel weighed(const StrutModel& model, const Residuals& residuals) const;
   void rank(const EvaluatedModel& before, EvaluatedModel& evaluated) const;
-  EvaluatedModel failed(const EvaluatedModel& before, FitFailure failure) const;
   FitFailure againstPhysics(const ModelFit& fit) const;
   bool isConfoundedWithFrequency(const EvaluatedModel& candidate, const EvaluatedModel& current) const;
   bool wanders(const EvaluatedModel& candidate, const EvaluatedModel& current) const;

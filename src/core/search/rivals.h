@@ -29,13 +29,13 @@ inline Polyline windowsOf(const Records& records, double stiffness_to_mass) {
   const double length_in_time = kRivalWindow * 2.0 * M_PI / std::sqrt(stiffness_to_mass);
   Polyline windows;
   for (const DriveSegment* segment : segmentsOf(records)) {
-    const MotionError wheel = motionError(segment->unsprung, 0.0, segment->period, stiffness_to_mass);
+    const auto [travel, travel_rate] = motionError(segment->unsprung, 0.0, segment->period, stiffness_to_mass);
     const auto length = static_cast<std::size_t>(std::ceil(length_in_time / segment->period));
     for (std::size_t first = 0; first + length <= segment->size(); first += length) {
       double position = 0.0, velocity = 0.0;
       for (std::size_t k = first; k < first + length; ++k) {
-        position += square(wheel.travel[k]);
-        velocity += square(wheel.travel_rate[k]);
+        position += square(travel[k]);
+        velocity += square(travel_rate[k]);
       }
       if (!(position > 0.0 && velocity > 0.0)) continue;
       windows.emplace_back(0.5 * std::log(velocity / position), segment->timeDriven(first + length / 2));
@@ -63,14 +63,12 @@ inline Polyline timeByFrequency(Polyline windows) {
 /// s of the last effect over time.
 inline Polyline lastMemories(const ModelFit& fit, const Records& records) {
   Polyline points;
-  std::vector<double> predicted;
-  std::vector<StrutState> motion;
+  FreeMotion motion;
   const Segments segments = segmentsOf(records);
-  for (std::size_t s = 0; s < segments.size(); ++s) {
-    if (!runFree(fit.model, *segments[s], fit.initial[s], predicted, &motion)) continue;
-    for (std::size_t k = 0; k < motion.size(); ++k)
-      points.emplace_back(segments[s]->timeDriven(k), motion[k].memory[fit.model.effects.size() - 1].s);
-  }
+  freeRunResiduals(fit.model, segments, fit.initial, &motion);
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    for (std::size_t k = 0; k < motion[s].size(); ++k)
+      points.emplace_back(segments[s]->timeDriven(k), motion[s][k].memory[fit.model.effects.size() - 1].s);
   return points;
 }
 

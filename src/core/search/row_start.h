@@ -49,18 +49,17 @@ class RowStart {
       const DriveSegment& segment = *segments[s];
       std::vector<double> relative = segment.driving;
       for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= segment.sprung[k];
-      const MotionError motion = motionError(relative, meanOf({relative}), segment.period, b0);
+      const auto [travel, travel_rate] = motionError(relative, meanOf({relative}), segment.period, b0);
       const auto length =
           static_cast<std::size_t>(std::ceil(kStretchPeriods * 2.0 * M_PI / (std::sqrt(b0) * segment.period)));
       for (const auto& [first, end] : stretchesOf(segment.size(), length, kMostStartRows / samples)) {
         for (std::size_t k = first; k < end; ++k) {
-          motion_.samples.push_back(
-              {motion.travel[k], motion.travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
+          motion_.samples.push_back({travel[k], travel_rate[k], segment.timeDriven(k), 0.0, segment.sprung[k]});
           measured.push_back(segment.sprung[k]);
           const bool is_whole = k >= first + segment.lead() && k + segment.lead() < end;  // what the filter reaches
           weight.push_back(is_whole ? held_out.training[s][k] : 0.0);
         }
-        motion_.ends.push_back(motion_.samples.size());
+        motion_.begins.push_back(motion_.samples.size());
         taps_.push_back(segment.taps);
       }
     }
@@ -102,11 +101,9 @@ class RowStart {
 
  private:
   void passLow(Eigen::Ref<Eigen::VectorXd> column) const {
-    std::size_t begin = 0;
     for (std::size_t i = 0; i < taps_.size(); ++i) {
-      auto stretch = column.segment(begin, motion_.ends[i] - begin);
+      auto stretch = column.segment(motion_.begins[i], motion_.begins[i + 1] - motion_.begins[i]);
       stretch = lowPassed(taps_[i], stretch);
-      begin = motion_.ends[i];
     }
   }
 

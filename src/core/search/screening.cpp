@@ -17,13 +17,10 @@ constexpr double kRatio = 1.45;  // between neighbours
 constexpr double kMostCombinations = 36.0;
 constexpr Eigen::Index kSurfaceRows = 20000;
 
-Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& ends) {
+Residuals split(const Eigen::VectorXd& all, const std::vector<std::size_t>& begins) {
   Residuals segments;
-  std::size_t begin = 0;
-  for (const std::size_t end : ends) {
-    segments.emplace_back(all.data() + begin, all.data() + end);
-    begin = end;
-  }
+  for (std::size_t s = 0; s + 1 < begins.size(); ++s)
+    segments.emplace_back(all.data() + begins[s], all.data() + begins[s + 1]);
   return segments;
 }
 
@@ -90,7 +87,7 @@ Screening::Screening(const Records& records, const HoldOut& held_out, const Mode
 ScreenedModel Screening::expect(const WeightedProjection::Columns& columns,
                                 const WeightedProjection::Part& part) const {
   const Eigen::VectorXd residual = rows_.target() - columns * part.coefficients - rows_.common() * part.common;
-  ScreenedModel screened{fit_.model, part.gain, split(residual, response_.motion().ends)};
+  ScreenedModel screened{fit_.model, part.gain, split(residual, response_.motion().begins)};
   StrutModel& model = screened.model;
   // A fit begins badly at a linear guess that is far away: b1 and b0 go half their size at most.
   const auto change = [](double value, double by) { return std::clamp(value + by, 0.5 * value, 1.5 * value); };

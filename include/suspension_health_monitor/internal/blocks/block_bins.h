@@ -44,18 +44,17 @@ class NoiseBands {
       int to = from + kFewestBins;
       while (band.first + to < kRatio * (band.first + from)) ++to;
       if (band.size() - to < kFewestBins) to = band.size();
-      first_.push_back(from);
-      size_.push_back(to - from);
+      edges_.push_back(to);
       from = to;
     }
   }
 
-  int count() const { return static_cast<int>(first_.size()); }
-  int first(int band) const { return first_[band]; }  ///< bin, counted from the lowest used
-  int size(int band) const { return size_[band]; }
+  int count() const { return static_cast<int>(edges_.size()) - 1; }
+  int first(int band) const { return edges_[band]; }  ///< bin, counted from the lowest used
+  int size(int band) const { return edges_[band + 1] - edges_[band]; }
 
  private:
-  std::vector<int> first_, size_;
+  std::vector<int> edges_{0};  // first bins, and the end of the last band
 };
 
 /// Modulating functions hann(t) e^(-j w_k t). They and their first derivatives vanish at both ends of the block, so

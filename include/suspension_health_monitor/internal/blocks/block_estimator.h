@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/window_fit.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 
@@ -139,7 +138,7 @@ class BlockEstimator {
   void retireAll();
   void refine(int window, const BlockPrior& prior);
   bool isStale(const StrutBlock& block) const;
-  bool fit(int window, const BlockPrior& prior, WindowEstimate& result, bool is_near = false);
+  bool fit(int window, const BlockPrior& prior, WindowEstimate& result, bool is_near = false, int from = 0);
 
   StrutEquations equations_;
   WindowFit window_fit_;

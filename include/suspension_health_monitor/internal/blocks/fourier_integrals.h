@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -80,14 +80,13 @@ class FourierIntegrals {
   struct Reading {
     double time = 0.0;
     std::vector<double> values;
-    void set(double at, const double* of) { time = at, std::copy_n(of, values.size(), values.begin()); }
   };
 
+  long halfOf(double time) const { return static_cast<long>(std::floor(time / half_length_)); }
   int lostBefore(double time);  // number of readings, since last_
   // Takes in what was lost before held_, and held_.
   void bridge(double next_time, const double* next, Phases& phases);
   void takeHeld();
-  void begin(const Reading& first);
   void addSpacing(const Reading& left, const Reading& right, Phases& phases);
   void begin(long index);
   void add(const Reading& reading, double weight, Phases& phases);  // to the open half block

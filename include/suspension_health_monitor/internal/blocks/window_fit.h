@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/strut_equations.h"
@@ -94,12 +95,8 @@ BlockVector scoreOf(const StrutBlock::Band& band, const BlockVector& theta, doub
 BlockMatrix withShare(const Eigen::MatrixXd& products, double share_scale);
 
 /// Solves normal equations whose units differ by orders of magnitude.
-struct NormalEquations {
-  BlockMatrix inverse;
-  BlockVector solution;
-  bool is_solvable = false;
-  NormalEquations(const BlockMatrix& normal, const BlockVector& right);
-};
+/// @return the inverse of `normal`, and the solution: not finite if there is none.
+std::pair<BlockMatrix, BlockVector> solvedNormal(const BlockMatrix& normal, const BlockVector& right);
 
 /// @return the covariance of parameters by noise alone, H^-1 (c Z'Z + P) H^-1': bins under a Hann window are
 /// correlated, and so are blocks that overlap by half (c). Where the wheel's motion is little more than noise the

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -30,13 +31,11 @@ class HoldOut {
   std::vector<SampleMask> training;  ///< per segment of all records
 
   /// @param residuals  per segment of all records, as ModelFit has them.
-  /// @return sum of squared residuals of each held-out stretch.
-  std::vector<double> stretchErrors(const Residuals& residuals) const;
-
-  /// The same with the loss that fits minimise, which is softer on outliers: 2 a^2 (sqrt(1 + (r/a)^2) - 1) instead of
-  /// r^2, so that a few blows do not decide what is missing.
-  /// @param outlier  a [m/s^2], > 0.
-  std::vector<double> stretchLosses(const Residuals& residuals, double outlier) const;
+  /// @param outlier  a [m/s^2], > 0: the loss that fits minimise, 2 a^2 (sqrt(1 + (r/a)^2) - 1) instead of r^2. It is
+  /// softer on outliers, so that a few blows do not decide what is missing.
+  /// @return sum of squared residuals, or of losses, of each held-out stretch.
+  std::vector<double> stretchLosses(const Residuals& residuals,
+                                    double outlier = std::numeric_limits<double>::infinity()) const;
 
   /// How many independent squares the held-out residuals are worth, being coloured: N / (1 + 2 sum_k rho_k^2), rho
   /// their autocorrelation at the lags of up to one stretch. Bartlett, "On the theoretical specification and sampling
@@ -46,7 +45,7 @@ class HoldOut {
   /// @return sum of squared residuals of the training samples.
   double trainingError(const Residuals& residuals) const;
 
-  double rmse(const std::vector<double>& stretch_errors) const;
+  double rmse(const Residuals& residuals) const;
 
   /// @return 100 (1 - rmse / standard deviation of the held-out measurement).
   double fitPercent(double rmse) const { return 100.0 * (1.0 - rmse / deviation_); }

@@ -9,9 +9,9 @@ namespace suspension_health_monitor {
 
 /// A motion over segments that follow one another.
 struct SegmentedMotion {
-  std::vector<StrutMotion> samples;  ///< without memory
-  std::vector<std::size_t> ends;     ///< of the segments: segment i is [ends[i - 1], ends[i])
-  std::vector<double> rests;         ///< [s], rests[i] between segment i and the next; empty: unknown
+  std::vector<StrutMotion> samples;    ///< without memory
+  std::vector<std::size_t> begins{0};  ///< of the segments, and the end of the last one
+  std::vector<double> rests;           ///< [s], rests[i] between segment i and the next; empty: unknown
 };
 
 /// @return rms of travel and travel rate, and the natural time of a strut.

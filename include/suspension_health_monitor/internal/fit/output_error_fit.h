@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,6 +17,9 @@ using SampleMask = std::vector<char>;
 /// measured - predicted, per segment of all records and sample [m/s^2].
 using Residuals = std::vector<std::vector<double>>;
 
+/// Motion of free runs, per segment of all records and sample.
+using FreeMotion = std::vector<std::vector<StrutState>>;
+
 /// @return of all segments, one after the other: what is kept by segment and sample.
 template <class Value>
 Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
@@ -28,6 +32,9 @@ Eigen::VectorXd joined(const std::vector<std::vector<Value>>& segments) {
 double meanOf(const Residuals& residuals);
 double meanSquare(const Residuals& residuals);
 
+/// @return rms of what else the body's IMU measured, by channel; 0 where it is not known.
+std::array<double, kNumBodyChannels> bodySizes(const Segments& segments);
+
 /// Runs a model over a segment from a state, as FreeRun does; what it predicts has passed the filter of the segment's
 /// signals and has the faults of the reading that the model has.
 /// @param state  lead() samples before the first one.
@@ -38,10 +45,10 @@ bool runFree(const StrutModel& model, const DriveSegment& segment, StrutState st
              std::vector<StrutState>* motion = nullptr);
 
 /// What a model leaves of the measurement when it runs freely over all segments.
-/// @param initial  states in which the segments begin.
+/// @param initial  states in which the segments begin.  @param motion  if wanted.
 /// @return nothing if the model runs away.
 std::optional<Residuals> freeRunResiduals(const StrutModel& model, const Segments& segments,
-                                          const std::vector<StrutState>& initial);
+                                          const std::vector<StrutState>& initial, FreeMotion* motion = nullptr);
 
 /// Residuals beyond this many (robust) standard deviations lose weight in fits and in comparisons of models.
 inline constexpr double kOutlierScale = 4.0;

@@ -61,9 +61,6 @@ class Screening {
   /// @param fit  the present model, fitted on the training samples. The arguments must outlive this object.
   Screening(const Records& records, const HoldOut& held_out, const ModelFit& fit);
 
-  /// @return the present model.
-  const StrutModel& model() const { return fit_.model; }
-
   /// @return nothing if the effect does not act in these drives or does nothing that the model cannot do already.
   std::optional<ScreenedModel> screen(const ForceEffect& effect) const;
   std::optional<ScreenedModel> screen(const MeasurementEffect& effect) const;
