@@ -110,8 +110,7 @@ Run run(const Case& test) {
     if (has_body || now.time < std::min(test.change_at - 1.0, test.instants.back().time - 1.0)) continue;
     has_body = true;
     for (std::size_t i = 0; i < n; ++i) result.all.push_back(blocks.overTheDrive(i));
-    if (BodyRows rows; blocks.rows(rows))
-      result.body = BodyFit(test.places.size(), test.places).fit(rows, blocks.rowsOfHalves());
+    if (BodyRows rows; blocks.rows(rows)) result.body = fitRigidBody(rows, test.places, blocks.rowsOfHalves());
   }
   return result;
 }

@@ -102,7 +102,7 @@ class Separator {
       return;
     }
     std::optional<BodyFitResult> body;
-    if (names.size() > 1) body = BodyFit(names.size(), places).fit(*rows, blocks.rowsOfHalves());
+    if (names.size() > 1) body = fitRigidBody(*rows, places, blocks.rowsOfHalves());
     rows_ = body ? body->combined(*rows) : *rows;
     coupling_ = describe(rows_, body, namesOf(drives_.front().forces));
   }

@@ -66,7 +66,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
   VehicleClaims claims = blocks.claims();
   told.mistake = claims.find();
   told.model_errors = claims.modelErrors();
-  if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit(n, channels.places()).fit(rows, blocks.rowsOfHalves());
+  if (BodyRows rows; blocks.rows(rows)) told.body = fitRigidBody(rows, channels.places(), blocks.rowsOfHalves());
   return told;
 }
 

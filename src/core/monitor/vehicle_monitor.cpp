@@ -185,7 +185,7 @@ void VehicleMonitor::fitRows() {
   claims_.reset();
   BodyRows rows;
   if (!blocks_->rows(rows)) return;
-  body_ = BodyFit(numStruts(), blocks_->vehicle().places()).fit(rows, blocks_->rowsOfHalves());
+  body_ = fitRigidBody(rows, blocks_->vehicle().places(), blocks_->rowsOfHalves());
 }
 
 void VehicleMonitor::fitBodyIfDue() {

@@ -41,7 +41,7 @@ std::vector<StrutPair> pairsOf(const StrutPlaces& places) {
   return pairs;
 }
 
-BodyFit::BodyFit(std::size_t n, const StrutPlaces& places) : q_(Eigen::MatrixXd::Identity(n, n)) {
+RigidBody::RigidBody(Eigen::Index n, const StrutPlaces& places) : q_(Eigen::MatrixXd::Identity(n, n)) {
   if (places.empty()) return;
   const Eigen::Map<const Eigen::Matrix2Xd> xy(places.front().data(), 2, n);
   const Eigen::VectorXd x = scaled(xy.row(0), middle_[0], scale_[0]), y = scaled(xy.row(1), middle_[1], scale_[1]);
@@ -55,12 +55,48 @@ BodyFit::BodyFit(std::size_t n, const StrutPlaces& places) : q_(Eigen::MatrixXd:
   if (sees_roll_) pairs_ = pairsOf(places);
 }
 
-std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
-                                                const Eigen::VectorXd& start) const {
-  const RigidBody body(q_, pairs_, bars);
+// S about the middle of the struts is 1/M (1 and inertia about the centre of gravity, x_c off): S_00 = 1 + x_c J
+// x_c', S_0x = -x_c J, with J the inverse of the inertia; S is over its own S_00.
+Eigen::Vector4d RigidBody::massAndPlace(const Eigen::VectorXd& parameters) const {
+  const Eigen::MatrixXd s = inertia(parameters);
+  const Eigen::Index m = s.rows() - 1;
+  Eigen::VectorXd lengths(m);
+  if (sees_pitch_) lengths[0] = scale_[0];
+  if (sees_roll_) lengths[m - 1] = scale_[1];
+  const Eigen::MatrixXd j =
+      lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) * lengths.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd first = lengths.cwiseInverse().asDiagonal() * s.col(0).tail(m);
+  const Eigen::VectorXd centre = -solveSymmetric(j, first);
+  const double share = 1.0 - centre.dot(j * centre);  // 1/M over S_00
+  Eigen::Vector4d numbers = Eigen::Vector4d::Zero();
+  if (sees_pitch_) numbers[0] = j(0, 0) / share, numbers[2] = centre[0] + middle_[0];
+  if (sees_roll_) numbers[1] = j(m - 1, m - 1) / share, numbers[3] = centre[m - 1] + middle_[1];
+  return numbers;
+}
+
+bool RigidBody::isVehicle(const Eigen::VectorXd& parameters) const {
+  const Eigen::Vector4d numbers = massAndPlace(parameters);
+  const auto isPlausible = [&](int axis, Eigen::Index column) {
+    const double most = kVehicleTuning.longest_gyration * scale_[axis] * q_.col(column).cwiseAbs().maxCoeff();
+    return numbers[axis] * most * most > 1.0;
+  };
+  return (!sees_pitch_ || isPlausible(0, 1)) && (!sees_roll_ || isPlausible(1, q_.cols() - 1));
+}
+
+namespace {
+
+struct Solution {
+  RigidBody body;
+  double phi;
+  Eigen::VectorXd parameters;
+  Eigen::MatrixXd covariance;
+  double chi2 = 0.0;
+};
+
+std::optional<Solution> solve(const RigidBody& body, const BodyRows& rows, double phi, const Eigen::VectorXd& start) {
   RigidBodyRows functor(body, rows, phi);
   if (!(functor.degreesOfFreedom() > 0.0)) return std::nullopt;
-  Solution solution{bars, phi, start.size() == functor.inputs() ? start : functor.start(rows), {}};
+  Solution solution{body, phi, start.size() == functor.inputs() ? start : functor.start(rows), {}};
   Eigen::LevenbergMarquardt<RigidBodyRows> solver(functor);
   solver.minimize(solution.parameters);
   if (!solution.parameters.allFinite()) return std::nullopt;
@@ -76,12 +112,12 @@ std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitRes
 }
 
 // The phi that makes chi2 equal to its degrees of freedom.
-std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitResult::Bars bars) const {
+std::optional<Solution> solve(const RigidBody& body, const BodyRows& rows) {
   double low = std::log(kVehicleTuning.least_phi), high = std::log(kVehicleTuning.most_phi);
   std::optional<Solution> best;
   for (int i = 0; i < kVehicleTuning.halvings; ++i) {
     const double middle = 0.5 * (low + high);
-    auto solution = solve(rows, bars, std::exp(middle), best ? best->parameters : Eigen::VectorXd());
+    auto solution = solve(body, rows, std::exp(middle), best ? best->parameters : Eigen::VectorXd());
     if (!solution) return std::nullopt;
     (solution->chi2 > 1.0 ? low : high) = middle;
     best = std::move(solution);
@@ -89,35 +125,26 @@ std::optional<BodyFit::Solution> BodyFit::solve(const BodyRows& rows, BodyFitRes
   return best;
 }
 
-bool BodyFit::hasNegativeBar(const Solution& solution) const {
-  for (Eigen::Index i = RigidBody(q_, pairs_, solution.bars).firstBar(); i < solution.parameters.size(); ++i)
+bool hasNegativeBar(const Solution& solution) {
+  for (Eigen::Index i = solution.body.firstBar(); i < solution.parameters.size(); ++i)
     if (solution.parameters[i] < -kProven * std::sqrt(solution.covariance(i, i))) return true;
   return false;
 }
 
-// Laws with memory may look like bars. The body that fits together with such bars is one that no vehicle has.
-bool BodyFit::isVehicle(const Eigen::Vector4d& numbers) const {
-  const auto isPlausible = [&](int axis, Eigen::Index column) {
-    const double most = kVehicleTuning.longest_gyration * scale_[axis] * q_.col(column).cwiseAbs().maxCoeff();
-    return numbers[axis] * most * most > 1.0;
-  };
-  return (!sees_pitch_ || isPlausible(0, 1)) && (!sees_roll_ || isPlausible(1, q_.cols() - 1));
-}
-
-bool BodyFit::isNamed(const Solution& without, const Solution& with, const std::vector<BodyRows>& halves) const {
+bool isNamed(const Solution& without, const Solution& with, const std::vector<BodyRows>& halves) {
   // On multibody vehicles without bars a fit with bars left a phi of more than 2.5 %, on those that have bars 1.1 %.
   if (halves.size() < 2 || !(with.phi < kWorthHaving) || !(without.phi > kMuchMore * with.phi)) return false;
-  const RigidBody body(q_, pairs_, with.bars);
+  const RigidBody& body = with.body;
   // From fewer degrees of freedom the misfit is not known: rows of two struts fit a bar that does not exist.
   if (RigidBodyRows(body, halves.front(), with.phi).degreesOfFreedom() < kFewestForScatter) return false;
-  if (!isVehicle(inertia(body.inertia(with.parameters)))) return false;
+  if (!body.isVehicle(with.parameters)) return false;
   std::vector<Solution> parts{with};
   for (const BodyRows& half : halves) {
-    const auto part = solve(half, with.bars, with.phi, with.parameters);
+    const auto part = solve(body, half, with.phi, with.parameters);
     if (!part) return false;
     parts.push_back(*part);
   }
-  if (std::any_of(parts.begin(), parts.end(), [&](const Solution& part) { return hasNegativeBar(part); })) return false;
+  if (std::any_of(parts.begin(), parts.end(), hasNegativeBar)) return false;
   const auto value = [&](std::size_t part, int bar) { return parts[part].parameters[bar]; };
   const auto variance = [&](std::size_t part, int bar) { return parts[part].covariance(bar, bar); };
   for (int bar = body.firstBar(); bar < body.numParameters(); ++bar)
@@ -129,14 +156,70 @@ bool BodyFit::isNamed(const Solution& without, const Solution& with, const std::
   return false;
 }
 
-std::optional<BodyFitResult> BodyFit::fit(const BodyRows& rows, const std::vector<BodyRows>& halves) const {
+BodyFitResult describe(const Solution& solution) {
+  const RigidBody& body = solution.body;
+  const int n = body.numStruts();
+  BodyFitResult result;
+  result.phi = solution.phi;
+  result.bars = body.bars;
+  const Eigen::MatrixXd rows = body.rows(solution.parameters);
+  result.rate = rows.leftCols(n);
+  result.travel = rows.rightCols(n);
+  // A number of the parameters with its standard deviation, by differences.
+  const auto measured = [&](auto&& number) {
+    const double value = number(solution.parameters);
+    Eigen::VectorXd slope(solution.parameters.size());
+    for (Eigen::Index i = 0; i < slope.size(); ++i) {
+      const double step = kDifferenceStep * std::max(1.0, std::abs(solution.parameters[i]));
+      Eigen::VectorXd moved = solution.parameters;
+      moved[i] += step;
+      slope[i] = (number(moved) - value) / step;
+    }
+    return Measured{value, std::sqrt(slope.dot(solution.covariance * slope))};
+  };
+  using Parameters = Eigen::VectorXd;
+  const auto mobility = [&](const Parameters& p) { return body.mobility(body.inertia(p)); };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto own = [&](int kind) {
+      return measured([&](const Parameters& p) { return mobility(p).row(i).dot(body.struts(p, kind).col(i)); });
+    };
+    result.b1.push_back(own(RigidBody::kDamping));
+    result.b0.push_back(own(RigidBody::kStiffness));
+  }
+  for (int b = 0; b < body.numBars(RigidBody::kStiffness); ++b) {
+    const auto atStrut = [&](std::size_t i, int kind) {
+      if (body.numBars(kind) == 0) return Measured{0.0, 0.0};
+      return measured([&](const Parameters& p) { return mobility(p)(i, i) * p[body.firstBar(kind) + b]; });
+    };
+    const auto [i, j] = body.bar(b);
+    const BodyFitResult::Bar bar{body.bar(b),
+                                 {atStrut(i, RigidBody::kStiffness), atStrut(j, RigidBody::kStiffness)},
+                                 {atStrut(i, RigidBody::kDamping), atStrut(j, RigidBody::kDamping)}};
+    if (isProven(bar.stiffness[0])) result.found.push_back(bar);
+  }
+  const auto numberOf = [&](int i, bool is_seen) {
+    Measured number = measured([&](const Parameters& p) { return body.massAndPlace(p)[i]; });
+    if (!is_seen) number.stddev = std::numeric_limits<double>::infinity();
+    return number;
+  };
+  result.inertia = {InertiaDoubt::kNone, numberOf(0, body.seesPitch()), numberOf(1, body.seesRoll()),
+                    numberOf(2, body.seesPitch()), numberOf(3, body.seesRoll())};
+  return result;
+}
+
+}  // namespace
+
+std::optional<BodyFitResult> fitRigidBody(const BodyRows& rows, const StrutPlaces& places,
+                                          const std::vector<BodyRows>& halves) {
   using Bars = BodyFitResult::Bars;
-  const auto without = solve(rows, Bars::kNone);
+  RigidBody body(rows.size(), places);
+  const auto without = solve(body, rows);
   if (!without) return std::nullopt;
   BodyFitResult result = describe(*without);
   for (const Bars bars : {Bars::kStiffness, Bars::kStiffnessAndDamping}) {
-    if (pairs_.empty()) break;
-    const auto with = solve(rows, bars);
+    if (!body.mayHaveBars()) break;
+    body.bars = bars;
+    const auto with = solve(body, rows);
     if (!with || (result.bars != Bars::kNone && !(result.phi > kMuchMore * with->phi))) break;
     if (isNamed(*without, *with, halves)) result = describe(*with);
     // Bars that damp, too, are many numbers, which fit what is no bar: of a vehicle that has them the stiffnesses alone
@@ -170,82 +253,42 @@ BodyRows BodyFitResult::combined(const BodyRows& rows) const {
   return result;
 }
 
-// S about the middle of the struts is 1/M (1 and inertia about the centre of gravity, x_c off): S_00 = 1 + x_c J
-// x_c', S_0x = -x_c J, with J the inverse of the inertia; S is over its own S_00.
-Eigen::Vector4d BodyFit::inertia(const Eigen::MatrixXd& s) const {
-  const Eigen::Index m = s.rows() - 1;
-  Eigen::VectorXd lengths(m);
-  if (sees_pitch_) lengths[0] = scale_[0];
-  if (sees_roll_) lengths[m - 1] = scale_[1];
-  const Eigen::MatrixXd j =
-      lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) * lengths.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd first = lengths.cwiseInverse().asDiagonal() * s.col(0).tail(m);
-  const Eigen::VectorXd centre = -solveSymmetric(j, first);
-  const double share = 1.0 - centre.dot(j * centre);  // 1/M over S_00
-  Eigen::Vector4d numbers = Eigen::Vector4d::Zero();
-  if (sees_pitch_) numbers[0] = j(0, 0) / share, numbers[2] = centre[0] + middle_[0];
-  if (sees_roll_) numbers[1] = j(m - 1, m - 1) / share, numbers[3] = centre[m - 1] + middle_[1];
-  return numbers;
+Measured BodyRows::ratio(Eigen::Index i, Eigen::Index j) const {
+  if (i == j) return {1.0, 0.0};
+  double weights = 0.0, sum = 0.0;
+  const auto add = [&](const Eigen::MatrixXd& of, Eigen::Index at) {
+    const double value = of(i, j) / of(j, j);
+    const double variance = (covariance[i](at, at) + value * value * covariance[j](at, at)) / (of(j, j) * of(j, j));
+    weights += 1.0 / variance;
+    sum += value / variance;
+  };
+  add(rate, j);
+  add(travel, size() + j);
+  return {sum / weights, 1.0 / std::sqrt(weights)};
 }
 
-BodyFitResult BodyFit::describe(const Solution& solution) const {
-  const RigidBody body(q_, pairs_, solution.bars);
-  const auto n = q_.rows();
-  BodyFitResult result;
-  result.phi = solution.phi;
-  result.bars = solution.bars;
-  const Eigen::MatrixXd rows = body.rows(solution.parameters);
-  result.rate = rows.leftCols(n);
-  result.travel = rows.rightCols(n);
-  // A number of the parameters with its standard deviation, by differences.
-  const auto measured = [&](auto&& number) {
-    const double value = number(solution.parameters);
-    Eigen::VectorXd slope(solution.parameters.size());
-    for (Eigen::Index i = 0; i < slope.size(); ++i) {
-      const double step = kDifferenceStep * std::max(1.0, std::abs(solution.parameters[i]));
-      Eigen::VectorXd moved = solution.parameters;
-      moved[i] += step;
-      slope[i] = (number(moved) - value) / step;
-    }
-    return Measured{value, std::sqrt(slope.dot(solution.covariance * slope))};
-  };
-  using Parameters = Eigen::VectorXd;
-  const auto mobility = [&](const Parameters& p) { return body.mobility(body.inertia(p)); };
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto own = [&](int kind) {
-      return measured([&](const Parameters& p) { return mobility(p).row(i).dot(body.struts(p, kind).col(i)); });
-    };
-    result.b1.push_back(own(RigidBody::kDamping));
-    result.b0.push_back(own(RigidBody::kStiffness));
-  }
-  for (int b = 0; b < body.numBars(RigidBody::kStiffness); ++b) {
-    const auto atStrut = [&](std::size_t i, int kind) {
-      if (body.numBars(kind) == 0) return Measured{0.0, 0.0};
-      return measured([&](const Parameters& p) { return mobility(p)(i, i) * p[body.firstBar(kind) + b]; });
-    };
-    const auto [i, j] = pairs_[b];
-    const BodyFitResult::Bar bar{pairs_[b],
-                                 {atStrut(i, RigidBody::kStiffness), atStrut(j, RigidBody::kStiffness)},
-                                 {atStrut(i, RigidBody::kDamping), atStrut(j, RigidBody::kDamping)}};
-    if (isProven(bar.stiffness[0])) result.found.push_back(bar);
-  }
-  const auto numberOf = [&](int i, bool is_seen) {
-    Measured number = measured([&](const Parameters& p) { return inertia(body.inertia(p))[i]; });
-    if (!is_seen) number.stddev = std::numeric_limits<double>::infinity();
-    return number;
-  };
-  result.inertia = {numberOf(0, sees_pitch_), numberOf(1, sees_roll_), numberOf(2, sees_pitch_),
-                    numberOf(3, sees_roll_)};
-  return result;
+bool BodyRows::areKnown() const {
+  if (!(rate.diagonal().minCoeff() > 0.0 && travel.diagonal().minCoeff() > 0.0)) return false;
+  for (Eigen::Index i = 0; i < size(); ++i)
+    for (Eigen::Index j = 0; j < size(); ++j)
+      // Of a neighbour's force: such an error makes b1 and b0 wrong by a few percent, as wheels hardly ever move alike.
+      if (!(ratio(i, j).stddev < kMostRelativeStddev)) return false;
+  return true;
 }
 
-BodyInertiaResult inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places) {
-  if (places.empty()) return {{}, InertiaDoubt::kNoPositions};
-  if (!fit) return {{}, InertiaDoubt::kUncertain};
-  const auto& [pitch, roll, x, y] = fit->inertia;
-  if (!std::isfinite(pitch.stddev) || !std::isfinite(roll.stddev)) return {{}, InertiaDoubt::kOnOneLine};
-  if (!isProven(pitch) || !isProven(roll)) return {{}, InertiaDoubt::kUncertain};
-  return {fit->inertia, InertiaDoubt::kNone};
+std::vector<StrutModel> BodyRows::models() const {
+  std::vector<StrutModel> models;
+  for (Eigen::Index i = 0; i < size(); ++i) models.push_back({rate(i, i), travel(i, i), {}, {}});
+  return models;
+}
+
+BodyInertia inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places) {
+  if (places.empty()) return {InertiaDoubt::kNoPositions};
+  if (!fit) return {InertiaDoubt::kUncertain};
+  const Measured &pitch = fit->inertia.mass_to_pitch_inertia, &roll = fit->inertia.mass_to_roll_inertia;
+  if (!std::isfinite(pitch.stddev) || !std::isfinite(roll.stddev)) return {InertiaDoubt::kOnOneLine};
+  if (!isProven(pitch) || !isProven(roll)) return {InertiaDoubt::kUncertain};
+  return fit->inertia;
 }
 
 }  // namespace suspension_health_monitor

@@ -97,26 +97,31 @@ void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, Stru
   }
 }
 
-std::array<double, 3> VehicleSpectra::bodyPowers(long half) {
+bool VehicleSpectra::gyroIsDeadIn(long half) {
+  if (vehicle_.numTopsOfBody() == 0) return false;
   std::array<double, 3> powers;
   for (const BodyChannel channel : {kAz, kWx, kWy}) {
     streams_[body_].sumHalves(half, channel, channel_);
     modulation_.apply(0, channel_, derivative_);
     powers[channel] = derivative_.abs2().sum();
   }
-  return powers;
+  const auto is_low = [&](std::size_t axis) { return powers[axis] < square(kSmall) * body_power_.mean(axis); };
+  if (body_power_.weight() >= kFewestForScatter && powers[0] > kSmall * body_power_.mean(0))
+    has_dead_gyro_ = is_low(1) || is_low(2);
+  if (!has_dead_gyro_) body_power_.add(powers);
+  return has_dead_gyro_;
 }
 
 CoupledTops::CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces)
     : s_(Modulation(band).s()), lu_(struts) {
-  rows_ = {Eigen::MatrixXd::Zero(struts, struts), Eigen::MatrixXd::Zero(struts, struts),
-           Eigen::MatrixXd::Zero(struts, forces)};
+  rows_.rate = rows_.travel = Eigen::MatrixXd::Zero(struts, struts);
+  rows_.force.setZero(struts, forces);
   wheels_.setZero(s_.size(), struts);
   travel_ = wheels_;
   forces_.setZero(s_.size(), forces);
 }
 
-void CoupledTops::setRows(const TopRows& rows) {
+void CoupledTops::setRows(const BodyRows& rows) {
   rows_ = rows;
   const auto n = wheels_.cols();
   follows_.resize(s_.size());

@@ -15,17 +15,22 @@ class RigidBody {
  public:
   enum Kind { kDamping, kStiffness, kNumKinds };
 
-  /// @param q  motions' shares in the tops, scaled.
-  RigidBody(const Eigen::MatrixXd& q, const std::vector<StrutPair>& pairs, BodyFitResult::Bars bars)
-      : q_(q), pairs_(pairs), bars_(bars) {}
+  using Bars = BodyFitResult::Bars;
+
+  /// Without bars.  @param places  as fitRigidBody().
+  RigidBody(Eigen::Index struts, const StrutPlaces& places);
+
+  Bars bars = Bars::kNone;  ///< that it has
 
   int numStruts() const { return static_cast<int>(q_.rows()); }
   int numMotions() const { return static_cast<int>(q_.cols()); }
   int numBars(int kind) const {
-    const bool has =
-        kind == kDamping ? bars_ == BodyFitResult::Bars::kStiffnessAndDamping : bars_ != BodyFitResult::Bars::kNone;
+    const bool has = kind == kDamping ? bars == Bars::kStiffnessAndDamping : bars != Bars::kNone;
     return has ? static_cast<int>(pairs_.size()) : 0;
   }
+  bool mayHaveBars() const { return !pairs_.empty(); }
+  bool seesPitch() const { return sees_pitch_; }
+  bool seesRoll() const { return sees_roll_; }
   const StrutPair& bar(int p) const { return pairs_[p]; }
 
   // Places among the parameters; S_ab with a >= b, not both 0.
@@ -74,10 +79,17 @@ class RigidBody {
     return rows(mobility(inertia(parameters)), parameters);
   }
 
+  /// @return M/Iyy, M/Ixx, x and y of the centre of gravity; 0 what is not seen.
+  Eigen::Vector4d massAndPlace(const Eigen::VectorXd& parameters) const;
+  /// @return false: no vehicle has a body with such numbers. Laws with memory may look like bars: so is the body that
+  /// fits together with such bars.
+  bool isVehicle(const Eigen::VectorXd& parameters) const;
+
  private:
-  const Eigen::MatrixXd& q_;
-  const std::vector<StrutPair>& pairs_;
-  BodyFitResult::Bars bars_;
+  Eigen::MatrixXd q_;                                                                   // struts by motions, scaled
+  Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), scale_ = Eigen::Vector2d::Ones();  // of x, y
+  bool sees_pitch_ = false, sees_roll_ = false;
+  std::vector<StrutPair> pairs_;  // that a bar may join
 };
 
 // What is known of any vehicle: its radius of gyration about an axis is the distance of the struts from it, but for a

@@ -43,7 +43,6 @@ void VehicleBlocks::begin(double length) {
   length_ = length;
   modulation_ = Modulation(band);
   spectra_.emplace(band, vehicle_, effects_);
-  gyro_ = {};
   friction_.assign(size(), SlidingFriction::ofBlocks(length));
   // Until there is an estimate: a strut with a damping ratio of 0.3, in the middle of the bounces of this length.
   const double bounce =
@@ -145,8 +144,7 @@ const TopEstimate* VehicleBlocks::work() {
 void VehicleBlocks::takeBlock() {
   const long half = next_half_++;
   if (!spectra_->isWhole(half)) return;
-  if (vehicle_.numTopsOfBody() > 0) gyro_.add(spectra_->bodyPowers(half));
-  if (gyro_.isDead()) return;
+  if (spectra_->gyroIsDeadIn(half)) return;
   for (std::size_t i = 0; i < size(); ++i) spectra_->fill(i, half, estimators_[i].next());
   if (!isAlone()) {
     fillNeighbours();
@@ -238,7 +236,7 @@ void VehicleBlocks::updateModel() {
     }
     for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k)
       rows_.force(i, k) = theta[known + static_cast<int>(k)];
-    const TopRows& before = model_->rows();
+    const BodyRows& before = model_->rows();
     const auto moved = [&](const Eigen::MatrixXd& now, const Eigen::MatrixXd& then) {
       // Instruments need not be exact: an error of a tenth costs a hundredth of the information.
       return (now.row(i) - then.row(i)).cwiseAbs().maxCoeff() > kSmall * now.row(i).cwiseAbs().maxCoeff();

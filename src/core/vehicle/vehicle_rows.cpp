@@ -81,7 +81,7 @@ std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
 VehicleClaims VehicleBlocks::claims(const VehicleChannels& vehicle) const {
   const std::size_t n = size(), num_forces = vehicle_.known_forces.size();
   const Modulation& modulation = estimators_.front().equations().undelayed();
-  VehicleClaims claims(vehicle, modulation.s(), estimators_.front().count(), gyro_.isDead());
+  VehicleClaims claims(vehicle, modulation.s(), estimators_.front().count(), hasDeadGyro());
   Eigen::ArrayXXcd spectra(modulation.s().size(), 6 * n + num_forces);
   for (int age = 0; age < estimators_.front().count(); ++age) {
     for (std::size_t i = 0; i < n; ++i) {

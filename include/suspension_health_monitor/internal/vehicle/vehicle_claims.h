@@ -42,7 +42,7 @@ struct VehicleMistake {
   bool isDelay() const;
 
   /// @return true: what is estimated of any strut with this file is wrong. A delay is among what is estimated, and what
-  /// no mistake explains is an error of the model (BodyFit).
+  /// no mistake explains is an error of the model (fitRigidBody).
   bool isContradiction() const;
 };
 
@@ -53,7 +53,7 @@ class VehicleClaims {
  public:
   /// @param s  of the bins of a block [rad/s].
   /// @param most_blocks  that are added.
-  /// @param gyro_died  after them, by GyroCheck.
+  /// @param gyro_died  after them, by VehicleSpectra.
   VehicleClaims(const VehicleChannels& vehicle, const Eigen::ArrayXcd& s, int most_blocks, bool gyro_died);
 
   /// Adds the next older block.
