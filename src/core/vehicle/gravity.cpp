@@ -43,15 +43,15 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
     gravity += part / kVehicleTuning.fewest_parts;
   }
   if (!isGravity(gravity.norm())) return;
-  if (std::abs(gravity.norm() - kStandardGravity) > kLargestOffset) gain_ = gravity.norm() / kStandardGravity;
-  lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
-  is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
+  if (std::abs(gravity.norm() - kStandardGravity) > kLargestOffset) gain = gravity.norm() / kStandardGravity;
+  lean = angleBetween(gravity, Eigen::Vector3d::UnitZ());
+  is_steady = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
     return angleBetween(part, gravity) <= 0.5 * kVehicleTuning.largest_lean;
   });
-  if (isTurned()) mount_ = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  if (isTurned()) mount = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-bool BodyLevel::isTurned() const { return lean_ > kVehicleTuning.largest_lean; }
+bool BodyLevel::isTurned() const { return lean > kVehicleTuning.largest_lean; }
 
 bool MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   if (!acceleration.allFinite()) return false;

@@ -68,7 +68,7 @@ void VehicleGrid::give(VehicleReading reading) {
   }
   if (reading.sensor == Sensor::kBody) {
     Eigen::Map<Eigen::Vector3d> acceleration(reading.values.data()), rate(reading.values.data() + 3);
-    acceleration = vehicle_.body_mount * acceleration.eval() / level_.gain();
+    acceleration = vehicle_.body_mount * acceleration.eval() / level_.gain;
     rate = vehicle_.body_mount * rate.eval();
   }
   readings_(reading);
@@ -86,7 +86,7 @@ void VehicleGrid::take(const GridInstant& instant) {
   waiting_.push_back(instant);
   if (waiting_.size() < num_to_wait_) return;
   const BodyLevel newest = levelSince(waiting_.size() - level_window_);
-  if (newest.isSteady()) return turnUpright(newest);
+  if (newest.is_steady) return turnUpright(newest);
   num_to_wait_ += level_window_ / 2;
   if (num_to_wait_ > kVehicleTuning.most_windows * level_window_) turnUpright(levelSince(0));
 }
@@ -104,9 +104,9 @@ BodyLevel VehicleGrid::levelSince(std::size_t first) const {
 
 void VehicleGrid::turnUpright(const BodyLevel& level) {
   level_ = level;
-  vehicle_.body_mount = level_.mount();
+  vehicle_.body_mount = level_.mount;
   for (VehicleChannels::Strut& strut : vehicle_.struts)
-    if (strut.position) strut.position = Eigen::Vector3d(level_.mount() * *strut.position);
+    if (strut.position) strut.position = Eigen::Vector3d(level_.mount * *strut.position);
   tops_ = StrutTops(period_, vehicle_);
   num_to_wait_ = 0;
   const std::vector<VehicleReading> readings = std::exchange(waiting_readings_, {});

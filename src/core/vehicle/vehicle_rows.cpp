@@ -25,7 +25,9 @@ std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
   return result;
 }
 
-void VehicleBlocks::beginRows(BodyRows& rows) const {
+// The damping that other struts see of this one includes what its friction acts as.
+template <class EstimateOf>
+bool VehicleBlocks::setRows(const EstimateOf& estimate_of, BodyRows& rows) const {
   const std::size_t n = size();
   rows.is_by_body = vehicle_.numTopsOfBody() == n;
   rows.rate.resize(n, n);
@@ -33,48 +35,38 @@ void VehicleBlocks::beginRows(BodyRows& rows) const {
   rows.force.resize(n, vehicle_.known_forces.size());
   rows.force_stddev.resize(rows.force.rows(), rows.force.cols());
   rows.covariance.resize(n);
-  for (Eigen::MatrixXd& covariance : rows.covariance) covariance.resize(2 * n, 2 * n);
-}
-
-// The damping that other struts see of this one includes what its friction acts as.
-void VehicleBlocks::setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const {
-  const std::size_t n = size();
   using Selection = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kMostStruts, kMostBlockParameters>;
-  Selection selection = Selection::Zero(2 * n, estimate.theta.size());
-  for (std::size_t j = 0; j < n; ++j) {
-    const int at = rateColumn(columns_, strut, j);
-    selection(j, at) = selection(n + j, at + 1) = 1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& estimate = estimate_of(i);
+    if (!estimate) return false;
+    Selection selection = Selection::Zero(2 * n, estimate->theta.size());
+    for (std::size_t j = 0; j < n; ++j) {
+      const int at = rateColumn(columns_, i, j);
+      selection(j, at) = selection(n + j, at + 1) = 1.0;
+    }
+    if (looksForFriction()) selection(i, columns_.firstForce()) = estimate->frictionGain();
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate->theta;
+    rows.rate.row(i) = row.head(n).transpose();
+    rows.travel.row(i) = row.tail(n).transpose();
+    rows.covariance[i].noalias() = selection * (estimate->covariance * selection.transpose()).eval();
+    for (Eigen::Index k = 0; k < rows.force.cols(); ++k) {
+      const int at = columns_.firstForce() + firstKnownForce() + static_cast<int>(k);
+      rows.force(i, k) = estimate->theta[at];
+      const double variance = estimate->covariance(at, at);
+      rows.force_stddev(i, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
+    }
   }
-  if (looksForFriction()) selection(strut, columns_.firstForce()) = estimate.frictionGain();
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate.theta;
-  rows.rate.row(strut) = row.head(n).transpose();
-  rows.travel.row(strut) = row.tail(n).transpose();
-  rows.covariance[strut].noalias() = selection * (estimate.covariance * selection.transpose()).eval();
-  for (Eigen::Index k = 0; k < rows.force.cols(); ++k) {
-    const int at = columns_.firstForce() + firstKnownForce() + static_cast<int>(k);
-    rows.force(strut, k) = estimate.theta[at];
-    const double variance = estimate.covariance(at, at);
-    rows.force_stddev(strut, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
-  }
+  return true;
 }
 
 bool VehicleBlocks::rows(BodyRows& rows) const {
-  if (!has_model_) return false;
-  for (const BlockEstimator& each : estimators_)
-    if (!each.ofAllBlocks()) return false;
-  beginRows(rows);
-  for (std::size_t i = 0; i < size(); ++i) setRow(i, *estimators_[i].ofAllBlocks(), rows);
-  return true;
+  const auto of_all = [&](std::size_t i) -> const auto& { return estimators_[i].ofAllBlocks(); };
+  return has_model_ && setRows(of_all, rows);
 }
 
 std::optional<BodyRows> VehicleBlocks::rowsOverTheDrive() {
   BodyRows rows;
-  beginRows(rows);
-  for (std::size_t i = 0; i < size(); ++i) {
-    const auto estimate = overTheDrive(i);
-    if (!estimate) return std::nullopt;
-    setRow(i, *estimate, rows);
-  }
+  if (!setRows([&](std::size_t i) { return overTheDrive(i); }, rows)) return std::nullopt;
   return rows;
 }
 
@@ -101,15 +93,12 @@ VehicleClaims VehicleBlocks::claims(const VehicleChannels& vehicle) const {
 
 std::vector<BodyRows> VehicleBlocks::rowsOfHalves() {
   std::vector<BodyRows> halves(2);
-  for (BodyRows& half : halves) beginRows(half);
-  for (std::size_t i = 0; i < size(); ++i) {
-    // The block between both shares readings with each.
-    const int count = (estimators_[i].count() - 1) / 2;
-    for (const std::size_t half : {0, 1}) {
-      const auto estimate = estimators_[i].ofBlocks(half == 0 ? estimators_[i].count() - count : 0, count);
-      if (!estimate || !has_model_) return {};
-      setRow(i, *estimate, halves[half]);
-    }
+  for (const bool is_older : {true, false}) {
+    const auto of_half = [&](std::size_t i) {
+      const int all = estimators_[i].count(), half = (all - 1) / 2;  // the block between both shares readings with each
+      return estimators_[i].ofBlocks(is_older ? all - half : 0, half);
+    };
+    if (!has_model_ || !setRows(of_half, halves[is_older ? 0 : 1])) return {};
   }
   return halves;
 }

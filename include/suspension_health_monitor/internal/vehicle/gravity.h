@@ -10,8 +10,7 @@
 namespace suspension_health_monitor {
 
 /// How the IMU of a body is turned against upright, from the gravity in its readings.
-class BodyLevel {
- public:
+struct BodyLevel {
   /// As it is given: nothing to turn.
   BodyLevel() = default;
 
@@ -19,27 +18,18 @@ class BodyLevel {
   /// large as that: a vehicle brakes as much as it pulls away. An IMU that takes gravity off tells nothing.
   explicit BodyLevel(const std::vector<Eigen::Vector3d>& accelerations);
 
-  /// @return angle between the IMU's z axis and upright [rad].
-  double lean() const { return lean_; }
-
   /// @return true if the lean is more than that of a road, of the load or of a careful hand, which cannot be told from
   /// each other and do no harm.
   bool isTurned() const;
 
-  /// @return of the accelerations, by the size of gravity in them; 1 unless it is off by more than an offset makes.
-  double gain() const { return gain_; }
-
-  /// @return true if gravity was the same in all parts of the while, but for half of that: else the vehicle braked,
-  /// pulled away or went round a bend.
-  bool isSteady() const { return is_steady_; }
-
-  /// @return what turns the IMU's axes upright, by the smallest angle; the identity unless isTurned().
-  Eigen::Matrix3d mount() const { return mount_; }
-
- private:
-  double lean_ = 0.0, gain_ = 1.0;
-  bool is_steady_ = true;
-  Eigen::Matrix3d mount_ = Eigen::Matrix3d::Identity();
+  double lean = 0.0;  ///< angle between the IMU's z axis and upright [rad]
+  /// Of the accelerations, by the size of gravity in them; 1 unless it is off by more than an offset makes.
+  double gain = 1.0;
+  /// Gravity was the same in all parts of the while, but for half of that lean: else the vehicle braked, pulled away or
+  /// went round a bend.
+  bool is_steady = true;
+  /// What turns the IMU's axes upright, by the smallest angle; the identity unless isTurned().
+  Eigen::Matrix3d mount = Eigen::Matrix3d::Identity();
 };
 
 /// Gravity as an IMU reads it: a vehicle neither climbs for good nor pulls away more than it brakes, so that the mean

@@ -113,8 +113,9 @@ class VehicleBlocks {
   const TopEstimate* update(std::size_t strut);
   void scaleNeighbours(std::size_t strut);
   void updateModel();
-  void beginRows(BodyRows& rows) const;
-  void setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
+  /// @param estimate_of  a strut, if it is known.  @return false: one is not, and the rows are not complete.
+  template <class EstimateOf>
+  bool setRows(const EstimateOf& estimate_of, BodyRows& rows) const;
   void follow();
 
   VehicleChannels vehicle_;
