@@ -97,8 +97,8 @@ Run run(const Case& test) {
   for (const Instant& now : test.instants) {
     const Stamp stamp = fromSeconds(1.0 + now.time);
     for (std::size_t i = 0; i < n; ++i) {
-      if (!test.by_body) taken({Sensor::kTop, i, stamp, {now.tops[i]}}, now.time);
-      taken({Sensor::kWheel, i, stamp, {now.wheels[i]}}, now.time);
+      if (!test.by_body) taken({Sensor::kSprung, i, stamp, {now.tops[i]}}, now.time);
+      taken({Sensor::kUnsprung, i, stamp, {now.wheels[i]}}, now.time);
     }
     if (test.by_body) {
       VehicleReading reading{Sensor::kBody, 0, stamp, {}};

@@ -27,9 +27,9 @@ VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleChannels& veh
 void VehicleSpectra::push(const VehicleReading& reading, double time, double direction) {
   using Sensor = VehicleReading::Sensor;
   const auto& values = reading.values;
-  if (reading.sensor == Sensor::kTop) return streams_[top_of_[reading.place]].push(time, values.data(), phases_);
+  if (reading.sensor == Sensor::kSprung) return streams_[top_of_[reading.place]].push(time, values.data(), phases_);
   if (reading.sensor == Sensor::kForce) return streams_[forces_ + reading.place].push(time, values.data(), phases_);
-  if (reading.sensor == Sensor::kWheel) {
+  if (reading.sensor == Sensor::kUnsprung) {
     const double of_wheel[] = {values[0], direction};
     return streams_[reading.place].push(time, of_wheel, phases_);
   }

@@ -91,7 +91,7 @@ const TopEstimate* VehicleBlocks::push(const VehicleReading& reading) {
   const auto time = timeOf(first[static_cast<std::size_t>(reading.sensor)] + place, reading.stamp);
   if (!time) return nullptr;
   double direction = 0.0;
-  if (reading.sensor == VehicleReading::Sensor::kWheel && looksForFriction()) {
+  if (reading.sensor == VehicleReading::Sensor::kUnsprung && looksForFriction()) {
     const BlockVector& theta = estimators_[place].theta();
     if (estimators_[place].hasTheta())
       friction_[place].setStrut(theta[kBlockDamping], theta[kBlockStiffness], theta[columns_.firstForce()]);

@@ -10,12 +10,6 @@
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-using Place = VehicleStreams::Place;
-using Sensor = VehicleReading::Sensor;
-
-}  // namespace
 
 VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink,
                          ReadingSink readings)
@@ -52,11 +46,10 @@ bool VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
 void VehicleGrid::lead(const VehicleStreams::Sensor& sensor, const double* values, Stamp taken) {
   if (!readings_ || sensor.place == Place::kRoad) return;
   if (sensor.place == Place::kForce) {
-    for (std::size_t i = 0; i < sensor.count; ++i) give({Sensor::kForce, sensor.forces[i], taken, {values[i]}});
+    for (std::size_t i = 0; i < sensor.count; ++i) give({Place::kForce, sensor.forces[i], taken, {values[i]}});
     return;
   }
-  VehicleReading reading{Sensor::kBody, sensor.strut, taken, {}};
-  if (sensor.place != Place::kBody) reading.sensor = sensor.place == Place::kSprung ? Sensor::kTop : Sensor::kWheel;
+  VehicleReading reading{sensor.place, sensor.strut, taken, {}};
   std::copy_n(values, sensor.count, reading.values.begin());
   give(reading);
 }
@@ -66,7 +59,7 @@ void VehicleGrid::give(VehicleReading reading) {
     waiting_readings_.push_back(reading);
     return;
   }
-  if (reading.sensor == Sensor::kBody) {
+  if (reading.sensor == Place::kBody) {
     Eigen::Map<Eigen::Vector3d> acceleration(reading.values.data()), rate(reading.values.data() + 3);
     acceleration = vehicle_.body_mount * acceleration.eval() / level_.gain;
     rate = vehicle_.body_mount * rate.eval();

@@ -70,6 +70,8 @@ class VehicleGrid {
   std::uint64_t numInstants() const { return num_instants_; }
 
  private:
+  using Place = VehicleStreams::Place;
+
   void lead(const VehicleStreams::Sensor& sensor, const double* values, Stamp taken);
   void give(VehicleReading reading);
   void take(const GridInstant& instant);

@@ -61,7 +61,7 @@ void requireApart(const VehicleLayout& layout);
 /// The streams of a vehicle, numbered: those of the body's IMU if a strut needs it, then of every strut its sprung IMU,
 /// if it has one, and its unsprung IMU, then that of the road, then the known forces, those of one topic after another.
 struct VehicleStreams {
-  enum class Place { kBody, kSprung, kUnsprung, kForce, kRoad };
+  using Place = VehicleReading::Sensor;
 
   /// An IMU, or what measures known forces.
   struct Sensor {
