@@ -68,8 +68,8 @@ std::vector<BodyOverWheel> found(const std::vector<Lines>& imus, double late = 0
     }
   spectra.restart();
   const std::vector<Eigen::Vector3d> up(imus.size(), Eigen::Vector3d::UnitZ());
-  return findBodiesOverWheels(spectra.along(up, std::vector<bool>(imus.size(), false)),
-                              std::vector<double>(imus.size(), kRate));
+  return findBodiesOverWheels(
+      spectra.along(up, std::vector<bool>(imus.size(), false), std::vector<double>(imus.size(), kRate)));
 }
 
 TEST(ImuSpectra, RmsOfASineIsInItsBandAlone) {

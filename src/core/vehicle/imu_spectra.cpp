@@ -90,13 +90,14 @@ double ImuSpectra::rms(std::size_t imu, const Eigen::Vector3d& direction, double
   return std::sqrt(2.0 * sum / std::max(1.0, blocks(imu)) / 0.375) / band_.length;
 }
 
-ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const {
-  ImuSignals signals{band_, modulation_.s()};
-  signals.imus = streams_.size();
-  for (std::size_t i = 0; i < signals.imus; ++i) signals.owners.push_back(i);
-  for (std::size_t i = 0; i < signals.imus; ++i)
+ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro,
+                             const std::vector<double>& rates) const {
+  ImuSignals signals{band_, rates, modulation_.s()};
+  const std::size_t imus = streams_.size();
+  for (std::size_t i = 0; i < imus; ++i) signals.owners.push_back(i);
+  for (std::size_t i = 0; i < imus; ++i)
     if (has_gyro[i]) signals.owners.insert(signals.owners.end(), 3, i);
-  const std::size_t size = signals.owners.size(), imus = signals.imus;
+  const std::size_t size = signals.owners.size();
   Eigen::MatrixXcd directions = Eigen::MatrixXcd::Zero(size, kAxes * imus);
   Eigen::MatrixXd counts(size, size);
   for (std::size_t i = 0; i < size; ++i) {

@@ -22,8 +22,7 @@ struct BodyOverWheel {
 ///     z_i'' = sum over wheels j of (b1_ij / s + b0_ij / s^2) w_j'' - (a_1 / s + a_0 / s^2) z_i'',
 /// and likewise of its angular accelerations. The damper of a wheel pushes no point harder than the one above it: b1_ij
 /// is largest there. An IMU with a gyro may serve several wheels, of which one may turn it and push it by nothing.
-/// @param rates  by IMU [Hz].
 /// @return a pair for each wheel, by the wheels' places.
-std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const std::vector<double>& rates);
+std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals);
 
 }  // namespace suspension_health_monitor

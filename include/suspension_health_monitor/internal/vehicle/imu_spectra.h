@@ -16,12 +16,14 @@ using SixAxes = Eigen::Matrix<double, 6, 1>;
 /// Spectra of signals and between them.
 struct ImuSignals {
   BlockBand band;
+  std::vector<double> rates;                   ///< by IMU [Hz]
   Eigen::ArrayXcd s;                           ///< by bin of the band [rad/s]
   std::vector<Eigen::MatrixXcd> spectra = {};  ///< by bin of the band, signals by signals
   /// By signal the IMU: first one of each along the axis that points up [m/s^2], then three of each IMU with a gyro,
   /// angular accelerations [rad/s^2].
   std::vector<std::size_t> owners = {};
-  std::size_t imus = 0;
+
+  std::size_t imus() const { return rates.size(); }
 };
 
 /// Spectra of what several IMUs measure, in all axes, and between all of them: means over half overlapping blocks of
@@ -42,8 +44,9 @@ class ImuSpectra {
   /// @return rms along a direction in the axes of an IMU between two frequencies [m/s^2].
   double rms(std::size_t imu, const Eigen::Vector3d& direction, double from_hz, double to_hz) const;
 
-  /// @param up  of each IMU, in its axes; 0: it is left out.  @param has_gyro  by IMU.
-  ImuSignals along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const;
+  /// @param up  of each IMU, in its axes; 0: it is left out.  @param has_gyro  by IMU.  @param rates  by IMU [Hz].
+  ImuSignals along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro,
+                   const std::vector<double>& rates) const;
 
  private:
   struct Stream {
