@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -49,15 +50,16 @@ class Separator {
   /// @return true if one IMU tells of the tops of several struts.
   bool sharesNoise() const { return mostStrutsOfASensor(drives_.front().noise) > 1; }
 
-  /// Fits the models of these struts to the drives as an estimator sees them, and takes them from then on.
-  /// @return what was fitted; nothing where that failed.
-  std::vector<std::optional<ModelFit>> fitModels(const std::vector<std::size_t>& struts) {
+  /// Fits the models of the struts that are meant to the drives as an estimator sees them, and takes them from then on.
+  /// @return what was fitted, by strut; nothing where that failed, and of struts that are not meant.
+  std::vector<std::optional<ModelFit>> fitModels(const std::function<bool(std::size_t strut)>& is_meant) {
     const std::vector<std::vector<Drive>> separated = separate(false);
-    std::vector<std::optional<ModelFit>> fits;
-    for (const std::size_t i : struts) {
+    std::vector<std::optional<ModelFit>> fits(models_.size());
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      if (!is_meant(i)) continue;
       const std::deque<DriveRecord> records = makeRecords(separated[i], period_, models_[i]);
-      fits.emplace_back(fitOutputError(pointersTo(records), {}, models_[i]));
-      if (fits.back()) models_[i] = fits.back()->model;
+      fits[i] = fitOutputError(pointersTo(records), {}, models_[i]);
+      if (fits[i]) models_[i] = fits[i]->model;
     }
     return fits;
   }

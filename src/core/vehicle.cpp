@@ -147,26 +147,20 @@ class VehicleSearch {
 
   // Residuals tell the noise that struts share only if the models fit these drives: the given ones are fitted first.
   void fitGiven() {
-    if (!separator_.sharesNoise()) return;
-    std::vector<std::size_t> given;
-    for (std::size_t i = 0; i < models_.size(); ++i)
-      if (models_[i]) given.push_back(i);
-    separator_.fitModels(given);
+    if (!models_.empty() && separator_.sharesNoise())
+      separator_.fitModels([&](std::size_t strut) { return models_[strut].has_value(); });
   }
 
   // As long as a law was not known, a part of its force was taken for noise that struts share. So what was found is
   // fitted once more, to drives out of which no such noise was taken.
   void fitFound() {
     if (!separator_.sharesNoise()) return;
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < size(); ++i)
-      if (names(result_.struts[i])) found.push_back(i);
-    const std::vector<std::optional<ModelFit>> fits = separator_.fitModels(found);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      Diagnosis& strut = result_.struts[found[k]];
-      if (!fits[k]) continue;
+    const auto fits = separator_.fitModels([&](std::size_t strut) { return names(result_.struts[strut]); });
+    for (std::size_t i = 0; i < size(); ++i) {
+      Diagnosis& strut = result_.struts[i];
+      if (!fits[i]) continue;
       const bool is_complete = strut.model().is_complete;
-      strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
+      strut.final_fit = {fits[i]->model, fits[i]->stddev, true};
       strut.final_fit->model.is_complete = is_complete;
     }
   }
