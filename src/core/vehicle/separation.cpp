@@ -105,15 +105,14 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
 VehicleCoupling describe(const BodyRows& rows, const std::optional<BodyFitResult>& body,
                          const std::vector<std::string>& forces) {
   VehicleCoupling coupling;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    coupling.ratios.emplace_back();
-    coupling.stddevs.emplace_back();
+  coupling.ratios.assign(rows.size(), std::vector<double>(rows.size()));
+  coupling.stddevs = coupling.ratios;
+  for (Eigen::Index i = 0; i < rows.size(); ++i)
     for (Eigen::Index j = 0; j < rows.size(); ++j) {
       const Measured ratio = rows.ratio(i, j);
-      coupling.ratios.back().push_back(ratio.value);
-      coupling.stddevs.back().push_back(ratio.stddev);
+      coupling.ratios[i][j] = ratio.value;
+      coupling.stddevs[i][j] = ratio.stddev;
     }
-  }
   for (std::size_t k = 0; k < forces.size(); ++k)
     coupling.forces.push_back({forces[k], columnOf(rows.force, k), columnOf(rows.force_stddev, k)});
   if (!body) return coupling;

@@ -43,13 +43,9 @@ bool VehicleMistake::isDelay() const {
 }
 
 bool VehicleMistake::isContradiction() const {
-  switch (kind) {
-    case Kind::kNone:
-    case Kind::kTooLittle:
-    case Kind::kAlike:
-    case Kind::kOthers: return false;
-    default: return !isDelay();  // which the estimate finds
-  }
+  const bool is_mistake =
+      kind != Kind::kNone && kind != Kind::kTooLittle && kind != Kind::kAlike && kind != Kind::kOthers;
+  return is_mistake && !isDelay();  // which the estimate finds
 }
 
 // At the bounce and below a body follows its wheels, in pitch and roll as in heave.

@@ -109,7 +109,6 @@ class Decoupler {
   };
 
   void follow(Strut& strut, double body_acceleration) const;
-  Observed filtered(const Strut& strut) const;
 
   double period_;
   std::array<StrutMatrix, kParts> ratios_;  // of each part, 0 for j = i
