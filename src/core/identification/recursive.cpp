@@ -37,8 +37,6 @@ UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<ColumnO
   }
 }
 
-void UdCovariance::release(int i, double variance) { diagonal_[i] = ceiling_[i] = variance; }
-
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
   double alpha = noise;
   for (Eigen::Index j = 0; j < diagonal_.size(); ++j) {
@@ -58,37 +56,21 @@ const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, do
   return gain_;
 }
 
-void UdCovariance::scale(double factor) {
-  diagonal_ *= factor;
-  ceiling_ *= factor;
-}
-
-Eigen::MatrixXd UdCovariance::matrix() const { return upper_ * diagonal_.asDiagonal() * upper_.transpose(); }
-
-void RecursiveOptions::validate() const {
-  requireAboveZero("forgetting_factor", forgetting_factor, "", 1.0);
-  requireAboveZero("initial_variance", initial_variance, "");
-  if (correlated_rows < 0) refuse("correlated_rows", correlated_rows, "", "at least 0");
-}
-
 RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOptions& options)
     : options_(options),
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
       scatter_(num_parameters, std::max(0, options.correlated_rows)),
       means_(options.forgetting_factor) {
-  options.validate();
+  requireAboveZero("forgetting_factor", options.forgetting_factor, "", 1.0);
+  requireAboveZero("initial_variance", options.initial_variance, "");
+  if (options.correlated_rows < 0) refuse("correlated_rows", options.correlated_rows, "", "at least 0");
 }
 
 double RecursiveEstimator::observe(const RegressionRow& row) {
   const double innovation = row.output - row.regressor.dot(theta_);
   means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
   return innovation;
-}
-
-void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
-  options_.forgetting_factor = forgetting_factor;
-  means_.setForgettingFactor(forgetting_factor);
 }
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {

@@ -161,7 +161,6 @@ BodyFitResult describe(const Solution& solution) {
   const int n = body.numStruts();
   BodyFitResult result;
   result.phi = solution.phi;
-  result.bars = body.bars;
   const Eigen::MatrixXd rows = body.rows(solution.parameters);
   result.rate = rows.leftCols(n);
   result.travel = rows.rightCols(n);
@@ -211,22 +210,22 @@ BodyFitResult describe(const Solution& solution) {
 
 std::optional<BodyFitResult> fitRigidBody(const BodyRows& rows, const StrutPlaces& places,
                                           const std::vector<BodyRows>& halves) {
-  using Bars = BodyFitResult::Bars;
+  using Bars = RigidBody::Bars;
   RigidBody body(rows.size(), places);
   const auto without = solve(body, rows);
   if (!without) return std::nullopt;
-  BodyFitResult result = describe(*without);
+  std::optional<Solution> named;  // with bars
   for (const Bars bars : {Bars::kStiffness, Bars::kStiffnessAndDamping}) {
     if (!body.mayHaveBars()) break;
     body.bars = bars;
     const auto with = solve(body, rows);
-    if (!with || (result.bars != Bars::kNone && !(result.phi > kMuchMore * with->phi))) break;
-    if (isNamed(*without, *with, halves)) result = describe(*with);
+    if (!with || (named && !(named->phi > kMuchMore * with->phi))) break;
+    if (isNamed(*without, *with, halves)) named = with;
     // Bars that damp, too, are many numbers, which fit what is no bar: of a vehicle that has them the stiffnesses alone
     // leave more, but are not negative.
     if (hasNegativeBar(*with)) break;
   }
-  return result;
+  return describe(named ? *named : *without);
 }
 
 Eigen::Array2d BodyFitResult::modelVariances(std::size_t strut, const Eigen::Vector2d& own,

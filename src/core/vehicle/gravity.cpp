@@ -5,9 +5,6 @@
 #include <array>
 #include <cstddef>
 
-#include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/vehicle/tuning.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -51,8 +48,6 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
   if (isTurned()) mount = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
-bool BodyLevel::isTurned() const { return lean > kVehicleTuning.largest_lean; }
-
 bool MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   if (!acceleration.allFinite()) return false;
   if (!begin_ || stamp < *begin_) begin_ = stamp, sum_.setZero(), count_ = 0.0;
@@ -68,8 +63,6 @@ bool MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   return true;
 }
 
-bool MountClaim::isKnown() const { return parts_ >= kVehicleTuning.fewest_parts; }
-
 std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) const {
   Finding found;
   found.size = mean_.norm();
@@ -81,21 +74,8 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   return found;
 }
 
-// From what rounds to kVehicleTuning.largest_lean on.
-bool MountClaim::Finding::isLeaning() const {
-  return lean > kVehicleTuning.largest_lean - 0.5 / 180.0 * M_PI + kProven * lean_stddev;
-}
-
-bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kVehicleTuning.other_axis; }
-
 std::string_view MountClaim::Finding::name() const {
   return std::array<std::string_view, 6>{"x", "y", "z", "-x", "-y", "-z"}[axis + (is_negative ? 3 : 0)];
 }
-
-bool MountClaim::Finding::leansAs(const Finding& other) const {
-  return std::abs(lean - other.lean) < kVehicleTuning.largest_lean && lean < kVehicleTuning.other_axis;
-}
-
-bool MountClaim::Finding::isWrongSize() const { return std::abs(size - kStandardGravity) > kLargestOffset; }
 
 }  // namespace suspension_health_monitor

@@ -15,7 +15,7 @@ class RigidBody {
  public:
   enum Kind { kDamping, kStiffness, kNumKinds };
 
-  using Bars = BodyFitResult::Bars;
+  enum class Bars { kNone, kStiffness, kStiffnessAndDamping };
 
   /// Without bars.  @param places  as fitRigidBody().
   RigidBody(Eigen::Index struts, const StrutPlaces& places);

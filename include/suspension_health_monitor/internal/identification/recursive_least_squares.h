@@ -24,9 +24,6 @@ struct RecursiveOptions {
   /// The last two parameters are those of an offset o that drifts: c_o = -b0 o, with o at the newest row, and by how
   /// much c_o grows per row.
   bool drifting_offset = false;
-
-  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  void validate() const;
 };
 
 /// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight. Another
@@ -36,6 +33,7 @@ struct RecursiveOptions {
 class RecursiveEstimator {
  public:
   /// @param num_parameters  p >= 1.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   RecursiveEstimator(int num_parameters, const RecursiveOptions& options);
 
   /// Goes on with other columns: estimates and covariance of those that stay are kept. A new one stays at its start
@@ -49,7 +47,10 @@ class RecursiveEstimator {
   double forgettingFactor() const { return options_.forgetting_factor; }  ///< the present one
 
   /// Forgets faster or more slowly from the next row on; the estimate stays.
-  void setForgettingFactor(double forgetting_factor);
+  void setForgettingFactor(double forgetting_factor) {
+    options_.forgetting_factor = forgetting_factor;
+    means_.setForgettingFactor(forgetting_factor);
+  }
 
   /// The next row does not follow the one before: residuals of both are not correlated.
   void interrupt() { scatter_.interrupt(); }

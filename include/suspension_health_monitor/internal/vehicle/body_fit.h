@@ -60,7 +60,6 @@ std::vector<StrutPair> pairsOf(const StrutPlaces& places);
 
 /// A rigid body on struts, as far as its rows tell.
 struct BodyFitResult {
-  enum class Bars { kNone, kStiffness, kStiffnessAndDamping };
   struct Bar {
     StrutPair struts;
     /// a_ii times the bar's, over the body's mass at the first and at the second strut [1/s^2], [1/s].
@@ -68,8 +67,7 @@ struct BodyFitResult {
   };
 
   double phi = 0.0;              ///< error of the model per coefficient, over the largest of its kind in its row [-]
-  Bars bars = Bars::kNone;       ///< that are named
-  std::vector<Bar> found;        ///< these
+  std::vector<Bar> found;        ///< that are named
   std::vector<Measured> b1, b0;  ///< by strut, its own column at its own top with its share of bars [1/s], [1/s^2]
 
   /// @param own  b1, b0 of a strut's estimate.

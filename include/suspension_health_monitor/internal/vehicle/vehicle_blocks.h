@@ -80,7 +80,6 @@ class VehicleBlocks {
 
   const BlockEstimator& estimator(std::size_t strut = 0) const { return estimators_[strut]; }
   const VehicleChannels& vehicle() const { return vehicle_; }
-  double length() const { return length_; }  ///< T of the blocks [s]
 
   /// @return what the blocks kept say of the vehicle file, to be worked through. Allocates.
   VehicleClaims claims() const { return claims(vehicle_); }
