@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -7,6 +5,8 @@
 #include <complex>
 #include <random>
 #include <vector>
+
+#include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -23,68 +23,6 @@ Eigen::VectorXd scaled(const Eigen::VectorXd& values, double& middle, double& sc
   return scale > kVehicleTuning.smallest_spread ? Eigen::VectorXd(from / scale) : Eigen::VectorXd::Zero(values.size());
 }
 
-}  // namespace
-
-std::vector<StrutPair> pairsOf(const StrutPlaces& places) {
-  double ahead = -std::numeric_limits<double>::infinity(), behind = -ahead, side = 0.0;
-  for (const auto& place : places) {
-    ahead = std::max(ahead, place[0]);
-    behind = std::min(behind, place[0]);
-    side += place[1] / static_cast<double>(places.size());
-  }
-  std::vector<StrutPair> pairs;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (std::size_t j = i + 1; j < places.size(); ++j)
-      if (std::abs(places[i][0] - places[j][0]) <= kSmall * (ahead - behind) &&
-          (places[i][1] - side) * (places[j][1] - side) < 0.0)
-        pairs.emplace_back(i, j);
-  return pairs;
-}
-
-RigidBody::RigidBody(Eigen::Index n, const StrutPlaces& places) : q_(Eigen::MatrixXd::Identity(n, n)) {
-  if (places.empty()) return;
-  const Eigen::Map<const Eigen::Matrix2Xd> xy(places.front().data(), 2, n);
-  const Eigen::VectorXd x = scaled(xy.row(0), middle_[0], scale_[0]), y = scaled(xy.row(1), middle_[1], scale_[1]);
-  // Two struts, or all on one line, do not see the body turn about that line.
-  Eigen::MatrixXd q(n, 3);
-  q << Eigen::VectorXd::Ones(n), x, y;
-  sees_pitch_ = scale_[0] > kVehicleTuning.smallest_spread;
-  sees_roll_ = scale_[1] > kVehicleTuning.smallest_spread && rankOf(q) == (sees_pitch_ ? 3 : 2);
-  if (!sees_pitch_) q.col(1) = y;
-  q_ = q.leftCols(1 + (sees_pitch_ ? 1 : 0) + (sees_roll_ ? 1 : 0));
-  if (sees_roll_) pairs_ = pairsOf(places);
-}
-
-// S about the middle of the struts is 1/M (1 and inertia about the centre of gravity, x_c off): S_00 = 1 + x_c J
-// x_c', S_0x = -x_c J, with J the inverse of the inertia; S is over its own S_00.
-Eigen::Vector4d RigidBody::massAndPlace(const Eigen::VectorXd& parameters) const {
-  const Eigen::MatrixXd s = inertia(parameters);
-  const Eigen::Index m = s.rows() - 1;
-  Eigen::VectorXd lengths(m);
-  if (sees_pitch_) lengths[0] = scale_[0];
-  if (sees_roll_) lengths[m - 1] = scale_[1];
-  const Eigen::MatrixXd j =
-      lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) * lengths.cwiseInverse().asDiagonal();
-  const Eigen::VectorXd first = lengths.cwiseInverse().asDiagonal() * s.col(0).tail(m);
-  const Eigen::VectorXd centre = -solveSymmetric(j, first);
-  const double share = 1.0 - centre.dot(j * centre);  // 1/M over S_00
-  Eigen::Vector4d numbers = Eigen::Vector4d::Zero();
-  if (sees_pitch_) numbers[0] = j(0, 0) / share, numbers[2] = centre[0] + middle_[0];
-  if (sees_roll_) numbers[1] = j(m - 1, m - 1) / share, numbers[3] = centre[m - 1] + middle_[1];
-  return numbers;
-}
-
-bool RigidBody::isVehicle(const Eigen::VectorXd& parameters) const {
-  const Eigen::Vector4d numbers = massAndPlace(parameters);
-  const auto isPlausible = [&](int axis, Eigen::Index column) {
-    const double most = kVehicleTuning.longest_gyration * scale_[axis] * q_.col(column).cwiseAbs().maxCoeff();
-    return numbers[axis] * most * most > 1.0;
-  };
-  return (!sees_pitch_ || isPlausible(0, 1)) && (!sees_roll_ || isPlausible(1, q_.cols() - 1));
-}
-
-namespace {
-
 struct Solution {
   RigidBody body;
   double phi;
@@ -207,6 +145,64 @@ BodyFitResult describe(const Solution& solution) {
 }
 
 }  // namespace
+
+std::vector<StrutPair> pairsOf(const StrutPlaces& places) {
+  double ahead = -std::numeric_limits<double>::infinity(), behind = -ahead, side = 0.0;
+  for (const auto& place : places) {
+    ahead = std::max(ahead, place[0]);
+    behind = std::min(behind, place[0]);
+    side += place[1] / static_cast<double>(places.size());
+  }
+  std::vector<StrutPair> pairs;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = i + 1; j < places.size(); ++j)
+      if (std::abs(places[i][0] - places[j][0]) <= kSmall * (ahead - behind) &&
+          (places[i][1] - side) * (places[j][1] - side) < 0.0)
+        pairs.emplace_back(i, j);
+  return pairs;
+}
+
+RigidBody::RigidBody(Eigen::Index n, const StrutPlaces& places) : q_(Eigen::MatrixXd::Identity(n, n)) {
+  if (places.empty()) return;
+  const Eigen::Map<const Eigen::Matrix2Xd> xy(places.front().data(), 2, n);
+  const Eigen::VectorXd x = scaled(xy.row(0), middle_[0], scale_[0]), y = scaled(xy.row(1), middle_[1], scale_[1]);
+  // Two struts, or all on one line, do not see the body turn about that line.
+  Eigen::MatrixXd q(n, 3);
+  q << Eigen::VectorXd::Ones(n), x, y;
+  sees_pitch_ = scale_[0] > kVehicleTuning.smallest_spread;
+  sees_roll_ = scale_[1] > kVehicleTuning.smallest_spread && rankOf(q) == (sees_pitch_ ? 3 : 2);
+  if (!sees_pitch_) q.col(1) = y;
+  q_ = q.leftCols(1 + (sees_pitch_ ? 1 : 0) + (sees_roll_ ? 1 : 0));
+  if (sees_roll_) pairs_ = pairsOf(places);
+}
+
+// S about the middle of the struts is 1/M (1 and inertia about the centre of gravity, x_c off): S_00 = 1 + x_c J
+// x_c', S_0x = -x_c J, with J the inverse of the inertia; S is over its own S_00.
+Eigen::Vector4d RigidBody::massAndPlace(const Eigen::VectorXd& parameters) const {
+  const Eigen::MatrixXd s = inertia(parameters);
+  const Eigen::Index m = s.rows() - 1;
+  Eigen::VectorXd lengths(m);
+  if (sees_pitch_) lengths[0] = scale_[0];
+  if (sees_roll_) lengths[m - 1] = scale_[1];
+  const Eigen::MatrixXd j =
+      lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) * lengths.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd first = lengths.cwiseInverse().asDiagonal() * s.col(0).tail(m);
+  const Eigen::VectorXd centre = -solveSymmetric(j, first);
+  const double share = 1.0 - centre.dot(j * centre);  // 1/M over S_00
+  Eigen::Vector4d numbers = Eigen::Vector4d::Zero();
+  if (sees_pitch_) numbers[0] = j(0, 0) / share, numbers[2] = centre[0] + middle_[0];
+  if (sees_roll_) numbers[1] = j(m - 1, m - 1) / share, numbers[3] = centre[m - 1] + middle_[1];
+  return numbers;
+}
+
+bool RigidBody::isVehicle(const Eigen::VectorXd& parameters) const {
+  const Eigen::Vector4d numbers = massAndPlace(parameters);
+  const auto isPlausible = [&](int axis, Eigen::Index column) {
+    const double most = kVehicleTuning.longest_gyration * scale_[axis] * q_.col(column).cwiseAbs().maxCoeff();
+    return numbers[axis] * most * most > 1.0;
+  };
+  return (!sees_pitch_ || isPlausible(0, 1)) && (!sees_roll_ || isPlausible(1, q_.cols() - 1));
+}
 
 std::optional<BodyFitResult> fitRigidBody(const BodyRows& rows, const StrutPlaces& places,
                                           const std::vector<BodyRows>& halves) {
