@@ -33,10 +33,4 @@ const RegressionRow* SuspensionRegression::push(const CornerSample& sample, cons
   return &row_;
 }
 
-void SuspensionRegression::reset() {
-  sprung_.reset();
-  relative_.reset();
-  for (LinearIntegralFilter& effect : effects_) effect.reset();
-}
-
 }  // namespace suspension_health_monitor

@@ -271,12 +271,6 @@ bool BodyRows::areKnown() const {
   return true;
 }
 
-std::vector<StrutModel> BodyRows::models() const {
-  std::vector<StrutModel> models;
-  for (Eigen::Index i = 0; i < size(); ++i) models.push_back({rate(i, i), travel(i, i), {}, {}});
-  return models;
-}
-
 BodyInertia inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places) {
   if (places.empty()) return {InertiaDoubt::kNoPositions};
   if (!fit) return {InertiaDoubt::kUncertain};

@@ -38,10 +38,6 @@ void VehicleSpectra::push(const VehicleReading& reading, double time, double dir
   streams_[body_].push(time, of_body, phases_);
 }
 
-void VehicleSpectra::restart() {
-  for (FourierIntegrals& stream : streams_) stream.restart();
-}
-
 bool VehicleSpectra::isPassed(long half) const {
   return std::all_of(streams_.begin(), streams_.end(),
                      [&](const FourierIntegrals& stream) { return stream.openHalf() > half; });

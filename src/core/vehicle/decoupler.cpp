@@ -53,10 +53,6 @@ void TravelObserver::push(double relative_acceleration) {
   }
 }
 
-double TravelObserver::fast(std::size_t which) const {
-  return recent_[which].front() - slow_[which].output(0) / horizon_;
-}
-
 void TravelObserver::startNewSeries() {
   input_.reset();
   age_ = 0.0;

@@ -55,9 +55,6 @@ VehicleClaims::Mapping VehicleClaims::asFiled() const {
   return mapping;
 }
 
-// The share of unrelated noise that wheels and known forces, as so many columns, explain by chance in so many blocks.
-double VehicleClaims::noiseShare() const { return static_cast<double>(n_ + forces_) / blocks_; }
-
 // A stream that is late by tau has exp(-s tau) of what happened.
 Eigen::MatrixXd VehicleClaims::moments(const Eigen::VectorXd& delays) const {
   const Eigen::Index size = 6 * n_ + forces_;

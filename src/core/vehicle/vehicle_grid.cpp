@@ -84,10 +84,6 @@ void VehicleGrid::take(const GridInstant& instant) {
   if (num_to_wait_ > kVehicleTuning.most_windows * level_window_) turnUpright(levelSince(0));
 }
 
-void VehicleGrid::finish() {
-  if (!waiting_.empty()) turnUpright(levelSince(0));
-}
-
 BodyLevel VehicleGrid::levelSince(std::size_t first) const {
   std::vector<Eigen::Vector3d> accelerations;
   for (std::size_t i = first; i < waiting_.size(); ++i)

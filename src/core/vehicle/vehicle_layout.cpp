@@ -144,15 +144,6 @@ VehicleLayout VehicleLayout::ofOneStrut(bool has_road) {
   return layout;
 }
 
-bool VehicleLayout::hasFrames() const {
-  return std::any_of(struts.begin(), struts.end(), [](const Strut& strut) { return strut.frame.has_value(); });
-}
-
-void VehicleLayout::turn(const Eigen::Matrix3d& mount) {
-  for (Strut& strut : struts)
-    if (strut.position) Eigen::Map<Eigen::Vector3d>(strut.position->data()).applyOnTheLeft(mount);
-}
-
 VehicleLayout takeVehicle(OptionMap& values) {
   VehicleLayout layout;
   const std::map<std::string, OptionMap> struts = takeGroups(values, "struts"),
@@ -218,11 +209,6 @@ void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& for
       options.push_back({number, true, true});
     }
   }
-}
-
-std::size_t VehicleStreams::bodyImuOf(std::size_t strut) const {
-  const std::optional<std::size_t>& own = channels.struts[strut].sprung;
-  return options[own ? *own : *channels.body_imu].sensor;
 }
 
 void requireNumStruts(std::size_t count) {

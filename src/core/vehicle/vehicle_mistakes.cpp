@@ -38,16 +38,6 @@ Eigen::MatrixXd motionsOf(const StrutPlaces& places) {
 
 }  // namespace
 
-bool VehicleMistake::isDelay() const {
-  return kind == Kind::kWheelDelay || kind == Kind::kTopDelay || kind == Kind::kTopsDelay || kind == Kind::kBodyDelay;
-}
-
-bool VehicleMistake::isContradiction() const {
-  const bool is_mistake =
-      kind != Kind::kNone && kind != Kind::kTooLittle && kind != Kind::kAlike && kind != Kind::kOthers;
-  return is_mistake && !isDelay();  // which the estimate finds
-}
-
 // At the bounce and below a body follows its wheels, in pitch and roll as in heave.
 bool VehicleClaims::hasDeadGyro() const {
   if (places_.empty() || blocks_ < int{kFewestForScatter}) return false;

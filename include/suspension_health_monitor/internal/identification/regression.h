@@ -43,7 +43,11 @@ class SuspensionRegression {
   const RegressionRow* push(const CornerSample& sample, const double* effect_forces = nullptr);
 
   /// Starts anew after a gap.
-  void reset();
+  void reset() {
+    sprung_.reset();
+    relative_.reset();
+    for (LinearIntegralFilter& effect : effects_) effect.reset();
+  }
 
  private:
   LinearIntegralFilter sprung_;

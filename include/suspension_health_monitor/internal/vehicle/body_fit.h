@@ -30,7 +30,11 @@ struct BodyRows {
   /// @return true if every ratio is known well enough to take the other struts out.
   bool areKnown() const;
   /// @return the linear struts.
-  std::vector<StrutModel> models() const;
+  std::vector<StrutModel> models() const {
+    std::vector<StrutModel> models;
+    for (Eigen::Index i = 0; i < size(); ++i) models.push_back({rate(i, i), travel(i, i), {}, {}});
+    return models;
+  }
 };
 
 /// Why the rows of the struts do not tell how the body's mass is spread.

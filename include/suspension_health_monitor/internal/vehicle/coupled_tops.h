@@ -32,7 +32,9 @@ class VehicleSpectra {
   void pushEffects(double time, const double* forces) { streams_.back().push(time, forces, phases_); }
 
   /// The next reading of every stream is its first one.
-  void restart();
+  void restart() {
+    for (FourierIntegrals& stream : streams_) stream.restart();
+  }
 
   /// @return true if all streams are beyond this half block.
   bool isPassed(long half) const;

@@ -45,7 +45,7 @@ class TravelObserver {
   void startNewSeries();
 
  private:
-  double fast(std::size_t which) const;
+  double fast(std::size_t which) const { return recent_[which].front() - slow_[which].output(0) / horizon_; }
 
   double period_, washout_, horizon_;
   WheelInterpolator step_;

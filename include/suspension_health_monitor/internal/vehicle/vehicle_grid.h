@@ -44,7 +44,9 @@ class VehicleGrid {
   }
 
   /// After the last reading: what waits is led on.
-  void finish();
+  void finish() {
+    if (!waiting_.empty()) turnUpright(levelSince(0));
+  }
 
   const StreamGrid& streams() const { return grid_; }
 
