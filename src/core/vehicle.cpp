@@ -110,8 +110,8 @@ struct Separator {
   /// strut is estimated from all others.
   /// @return by strut and drive.
   std::vector<std::vector<Drive>> separate(bool for_search) const {
-    std::vector<StrutDrives> drives;
-    for (const VehicleDrive& drive : drives_) drives.push_back(separateStruts(drive, period, rows_, models));
+    const auto separated = [&](const VehicleDrive& drive) { return separateStruts(drive, period, rows_, models); };
+    std::vector<StrutDrives> drives = mapped(drives_, separated);
     StrutDrives noise = noise_;
     if (for_search && sharesNoise()) takeSharedNoise(drives, noise, period, models);
     std::vector<std::vector<Drive>> struts(noise.size());
@@ -185,7 +185,9 @@ class VehicleSearch {
  public:
   VehicleSearch(Separator separator, std::vector<DiagnoseOptions> options, const KnownModels& models)
       : separator_(std::move(separator)), options_(std::move(options)), models_(models) {
-    fitGiven();
+    // Residuals tell the noise that struts share only if the models fit these drives: the given ones are fitted first.
+    if (!models_.empty() && separator_.sharesNoise())
+      separator_.fitModels([&](std::size_t strut) { return models_[strut].has_value(); });
     result_.coupling = separator_.coupling;
     result_.struts.resize(size());
     result_.drives.resize(size());
@@ -207,12 +209,6 @@ class VehicleSearch {
   const std::function<void(double)>& progress() const { return options_.front().progress; }
   bool isSettled(std::size_t strut) const {
     return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
-  }
-
-  // Residuals tell the noise that struts share only if the models fit these drives: the given ones are fitted first.
-  void fitGiven() {
-    if (!models_.empty() && separator_.sharesNoise())
-      separator_.fitModels([&](std::size_t strut) { return models_[strut].has_value(); });
   }
 
   // As long as a law was not known, a part of its force was taken for noise that struts share. So what was found is

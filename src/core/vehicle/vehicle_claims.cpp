@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/blocks/block_bins.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -101,8 +101,7 @@ VehicleClaims::Rows VehicleClaims::fit(const Hypothesis& hypothesis, double size
 VehicleMistake VehicleClaims::attempt(const Hypothesis& hypothesis) const {
   VehicleMistake found{hypothesis.kind, hypothesis.struts};
   const std::vector<double>& sizes = hypothesis.sizes;
-  std::vector<double> unexplained;
-  for (const double size : sizes) unexplained.push_back(fit(hypothesis, size).unexplained);
+  const auto unexplained = mapped(sizes, [&](double size) { return fit(hypothesis, size).unexplained; });
   const auto best = std::min_element(unexplained.begin(), unexplained.end()) - unexplained.begin();
   found.size = sizes[best];
   found.unexplained = unexplained[best];

@@ -185,29 +185,20 @@ VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
     channels.struts.push_back(its);
   }
   if (layout.road_imu) channels.road = add(*layout.road_imu, Place::kRoad, 1, "road_imu");
-  addForces(layout.known_forces);
-}
-
-void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& forces) {
-  const auto num_imus = static_cast<std::ptrdiff_t>(sensors.size());
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    const VehicleLayout::KnownForce& force = forces[k];
-    auto sensor = std::find_if(sensors.begin() + num_imus, sensors.end(),
-                               [&](const Sensor& each) { return each.topic == force.topic; });
-    if (sensor == sensors.end())
-      sensor = sensors.insert(sensor, {force.topic, Place::kForce, 0, 0, 0, "known_forces/" + force.name + "/topic"});
-    sensor->fields.push_back(force.field);
-    sensor->forces.push_back(k);
-  }
-  channels.known_forces.resize(forces.size());
-  for (std::size_t number = num_imus; number < sensors.size(); ++number) {
-    Sensor& sensor = sensors[number];
-    sensor.stream = options.size();
-    sensor.count = sensor.forces.size();
-    for (const std::size_t k : sensor.forces) {
+  channels.known_forces.resize(layout.known_forces.size());
+  for (const VehicleLayout::KnownForce& first : layout.known_forces) {
+    const auto has_it = [&](const Sensor& each) { return each.place == Place::kForce && each.topic == first.topic; };
+    if (std::any_of(sensors.begin(), sensors.end(), has_it)) continue;
+    Sensor& sensor = sensors.emplace_back(
+        Sensor{first.topic, Place::kForce, options.size(), 0, 0, "known_forces/" + first.name + "/topic"});
+    for (std::size_t k = 0; k < layout.known_forces.size(); ++k) {
+      if (layout.known_forces[k].topic != first.topic) continue;
+      sensor.fields.push_back(layout.known_forces[k].field);
+      sensor.forces.push_back(k);
       channels.known_forces[k] = options.size();
-      options.push_back({number, true, true});
+      options.push_back({sensors.size() - 1, true, true});
     }
+    sensor.count = sensor.forces.size();
   }
 }
 

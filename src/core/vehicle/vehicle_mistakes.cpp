@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "suspension_health_monitor/internal/blocks/block_bins.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
@@ -96,8 +96,7 @@ void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
     const auto shifted = [axis](double size, StrutPlaces& other) {
       for (auto& place : other) place[axis] += size;
     };
-    std::vector<double> shifts;
-    for (const double share : kShifts) shifts.push_back(share * spread);
+    const auto shifts = mapped(kShifts, [&](double share) { return share * spread; });
     add(is_ahead ? Kind::kShiftAhead : Kind::kShiftSide, 0, shifts, shifted);
     for (const std::vector<double>* sizes : {&kOtherSign, &kFactors}) {
       const auto times = [axis](double size, StrutPlaces& other) {

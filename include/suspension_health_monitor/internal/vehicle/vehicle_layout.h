@@ -96,9 +96,6 @@ struct VehicleStreams {
     return options[own ? *own : *channels.body_imu].sensor;
   }
   std::size_t wheelImuOf(std::size_t strut) const { return options[channels.struts[strut].unsprung].sensor; }
-
- private:
-  void addForces(const std::vector<VehicleLayout::KnownForce>& forces);
 };
 
 }  // namespace suspension_health_monitor
