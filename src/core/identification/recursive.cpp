@@ -108,10 +108,6 @@ double RecursiveLeastSquares::update(const RegressionRow& row) {
   return innovation;
 }
 
-RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive,
-                                               const LeastAbsoluteOptions& options)
-    : RecursiveEstimator(num_parameters, recursive), absolute_(options), weights_(recursive.forgetting_factor) {}
-
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   drift();
@@ -120,17 +116,16 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (!leads()) {
     releaseExcited(row, meanSquareResidual(), 1.0);
     correct(row, innovation, 1.0);
-    if (++rows_ == absolute_.start_rows) takeOver();
+    if (++rows_ == options_.start_rows) takeOver();
   } else {
-    releaseExcited(row, meanAbsoluteResidual(), absolute_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
+    releaseExcited(row, meanAbsoluteResidual(), options_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
     correct(row, innovation, weight);
   }
   return innovation;
 }
 
 double RecursiveLeastAbsolute::weigh(double innovation) {
-  const double smallest =
-      smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
+  const double smallest = smallestDivisor(options_.small_divisor_rule, options_.small_divisor, meanAbsoluteResidual());
   const double weight = 1.0 / std::max(std::abs(innovation), smallest);
   if (!std::isfinite(weight)) return weight;
   const double score = weight * innovation;
@@ -142,13 +137,13 @@ double RecursiveLeastAbsolute::weigh(double innovation) {
 void RecursiveLeastAbsolute::beginAgain(const RecursiveLeastSquares& least_squares) {
   static_cast<RecursiveEstimator&>(*this) = least_squares;
   weights_ = RunningMeans<kNumMeans>(forgettingFactor());
-  rows_ = absolute_.start_rows;
+  rows_ = options_.start_rows;
   takeOver();
 }
 
 void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
-  if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
+  if (options_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
   scatter_.interrupt();  // rows are weighted from now on
 }
 

@@ -16,6 +16,12 @@ enum class InitialVariance {
   kRelative,  ///< P_ii(0) = v / phi_i^2 with the first regressor entry that is not 0: scale-free
 };
 
+/// What keeps the weight 1/|epsilon| finite when a row is hit (almost) exactly.
+enum class SmallDivisor {
+  kAbsolute,  ///< |epsilon| >= eps_min in the unit of psi, as in the paper (below Eq. (23))
+  kRelative,  ///< |epsilon| >= eps_min times the scale of the residuals: scale-free
+};
+
 struct RecursiveOptions {
   double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
@@ -24,6 +30,12 @@ struct RecursiveOptions {
   /// The last two parameters are those of an offset o that drifts: c_o = -b0 o, with o at the newest row, and by how
   /// much c_o grows per row.
   bool drifting_offset = false;
+
+  // Of RecursiveLeastAbsolute alone:
+  int start_rows = 150;  ///< k0: rows during which LS leads, >= 1
+  SmallDivisor small_divisor_rule = SmallDivisor::kRelative;
+  double small_divisor = 0.2;             ///< eps_min >= 0, [unit of psi] if absolute, [-] if relative
+  bool scale_covariance_at_start = true;  ///< P_LA = P_LS mean|epsilon| at the hand-over, else P_LA = P_LS (paper)
 };
 
 /// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight. Another
