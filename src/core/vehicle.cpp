@@ -2,12 +2,7 @@
 
 #include <algorithm>
 #include <deque>
-#include <functional>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/drive_identification.h"

@@ -7,7 +7,6 @@
 
 #include "rigid_body_rows.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {

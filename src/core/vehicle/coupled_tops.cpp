@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
 
 #include <algorithm>
+#include <array>
 
 namespace suspension_health_monitor {
 

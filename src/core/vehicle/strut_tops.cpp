@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

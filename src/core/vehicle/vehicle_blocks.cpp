@@ -234,8 +234,7 @@ void VehicleBlocks::updateModel() {
       rows_.rate(i, j) = theta[at];
       rows_.travel(i, j) = theta[at + 1];
     }
-    for (std::size_t k = 0; k < vehicle_.known_forces.size(); ++k)
-      rows_.force(i, k) = theta[known + static_cast<int>(k)];
+    rows_.force.row(i) = theta.segment(known, rows_.force.cols()).transpose();
     const BodyRows& before = model_->rows();
     const auto moved = [&](const Eigen::MatrixXd& now, const Eigen::MatrixXd& then) {
       // Instruments need not be exact: an error of a tenth costs a hundredth of the information.

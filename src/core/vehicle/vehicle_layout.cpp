@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 
-#include <algorithm>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
 #include <cmath>
@@ -11,7 +10,6 @@
 #include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 namespace {

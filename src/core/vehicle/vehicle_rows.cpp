@@ -49,12 +49,11 @@ bool VehicleBlocks::setRows(const EstimateOf& estimate_of, BodyRows& rows) const
     rows.rate.row(i) = row.head(n).transpose();
     rows.travel.row(i) = row.tail(n).transpose();
     rows.covariance[i].noalias() = selection * (estimate->covariance * selection.transpose()).eval();
-    for (Eigen::Index k = 0; k < rows.force.cols(); ++k) {
-      const int at = columns_.firstForce() + firstKnownForce() + static_cast<int>(k);
-      rows.force(i, k) = estimate->theta[at];
-      const double variance = estimate->covariance(at, at);
-      rows.force_stddev(i, k) = variance > 0.0 ? std::sqrt(variance) : HUGE_VAL;  // of a force that has not changed 0
-    }
+    const int known = columns_.firstForce() + firstKnownForce();
+    rows.force.row(i) = estimate->theta.segment(known, rows.force.cols()).transpose();
+    const auto variances = estimate->covariance.diagonal().segment(known, rows.force.cols()).array();
+    // Of a force that has not changed it is 0.
+    rows.force_stddev.row(i) = (variances > 0.0).select(variances.sqrt(), HUGE_VAL).matrix().transpose();
   }
   return true;
 }

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <array>
 #include <cstddef>
 #include <vector>
 
