@@ -21,8 +21,7 @@ namespace {
 /// @throws std::invalid_argument  if they are of another number of struts.
 template <class Options>
 std::vector<Options> optionsByStrut(const std::vector<Options>& options, std::size_t num_struts) {
-  if (options.empty()) return std::vector<Options>(num_struts);
-  if (options.size() == 1) return std::vector<Options>(num_struts, options.front());
+  if (options.size() <= 1) return std::vector<Options>(num_struts, options.empty() ? Options() : options.front());
   if (options.size() != num_struts)
     throw std::invalid_argument("options of " + std::to_string(options.size()) + " struts, must be of " +
                                 std::to_string(num_struts) + ", or one for all");
@@ -202,9 +201,6 @@ class VehicleSearch {
  private:
   std::size_t size() const { return separator_.models.size(); }
   const std::function<void(double)>& progress() const { return options_.front().progress; }
-  bool isSettled(std::size_t strut) const {
-    return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
-  }
 
   // As long as a law was not known, a part of its force was taken for noise that struts share. So what was found is
   // fitted once more, to drives out of which no such noise was taken.
@@ -240,7 +236,7 @@ class VehicleSearch {
       const double step = (1.0 - done_) / (static_cast<double>(size() - settled_.size()) + 1.0);
       std::optional<std::size_t> best;
       for (std::size_t i = 0; i < size(); ++i) {
-        if (isSettled(i)) continue;
+        if (std::find(settled_.begin(), settled_.end(), i) != settled_.end()) continue;
         judge(i, std::move(separated[i]), step, options_[i].most_effects);
         const Diagnosis& found = result_.struts[i];
         if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;

@@ -81,31 +81,28 @@ std::vector<VehicleClaims::Hypothesis> VehicleClaims::hypotheses() const {
 // Tops that the body's IMU tells of move with its heave, pitch and roll.
 void VehicleClaims::addPositions(std::vector<Hypothesis>& all) const {
   const Eigen::MatrixXd inverse = pseudoInverse(motionsOf(places_));
-  using Change = std::function<void(double size, StrutPlaces& places)>;
-  const auto add = [&](Kind kind, std::size_t strut, const std::vector<double>& sizes, const Change& change) {
-    all.push_back({kind, {strut, strut}, sizes, [places = places_, change, inverse, n = n_](double size, Mapping& m) {
-                     StrutPlaces other = places;
-                     change(size, other);
-                     m.streams.bottomRightCorner(n, n) = motionsOf(other) * inverse;
-                   }});
-  };
   for (const std::size_t axis : {0u, 1u}) {
-    const double spread = spreadOf(places_, axis);
     if (!isSpread(places_, axis)) continue;
-    const bool is_ahead = axis == 0;
-    const auto shifted = [axis](double size, StrutPlaces& other) {
-      for (auto& place : other) place[axis] += size;
+    using Change = std::function<double(double coordinate, double size)>;
+    // Changes where the struts `from` to `to` - 1 stand along the axis.
+    const auto add = [&](Kind kind, std::size_t from, std::size_t to, const std::vector<double>& sizes,
+                         const Change& change) {
+      all.push_back({kind,
+                     {from, from},
+                     sizes,
+                     [from, to, axis, change, inverse, places = places_, n = n_](double size, Mapping& m) {
+                       StrutPlaces other = places;
+                       for (std::size_t i = from; i < to; ++i) other[i][axis] = change(other[i][axis], size);
+                       m.streams.bottomRightCorner(n, n) = motionsOf(other) * inverse;
+                     }});
     };
-    const auto shifts = mapped(kShifts, [&](double share) { return share * spread; });
-    add(is_ahead ? Kind::kShiftAhead : Kind::kShiftSide, 0, shifts, shifted);
+    const bool is_ahead = axis == 0;
+    const auto shifts = mapped(kShifts, [&](double share) { return share * spreadOf(places_, axis); });
+    add(is_ahead ? Kind::kShiftAhead : Kind::kShiftSide, 0, places_.size(), shifts, std::plus<>());
     for (const std::vector<double>* sizes : {&kOtherSign, &kFactors}) {
-      const auto times = [axis](double size, StrutPlaces& other) {
-        for (auto& place : other) place[axis] *= size;
-      };
-      add(is_ahead ? Kind::kAhead : Kind::kSide, 0, *sizes, times);
+      add(is_ahead ? Kind::kAhead : Kind::kSide, 0, places_.size(), *sizes, std::multiplies<>());
       for (std::size_t i = 0; i < places_.size(); ++i)
-        add(is_ahead ? Kind::kAheadOfOne : Kind::kSideOfOne, i, *sizes,
-            [axis, i](double size, StrutPlaces& other) { other[i][axis] *= size; });
+        add(is_ahead ? Kind::kAheadOfOne : Kind::kSideOfOne, i, i + 1, *sizes, std::multiplies<>());
     }
   }
 }
