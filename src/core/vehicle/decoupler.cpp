@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/vehicle/tuning.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -17,10 +15,6 @@ int naturalPeriod(const std::vector<StrutModel>& models, double period) {
 }
 
 }  // namespace
-
-int TravelObserver::delayOf(int natural_period) {
-  return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
-}
 
 TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natural_period)
     : period_(period),

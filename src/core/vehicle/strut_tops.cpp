@@ -84,9 +84,4 @@ void StrutTops::spread(const std::vector<double>& values, const std::vector<doub
   }
 }
 
-std::vector<double> StrutTops::lowPass() const {
-  if (!filter_) return {};
-  return {filter_->lowPass().data(), filter_->lowPass().data() + filter_->lowPass().size()};
-}
-
 }  // namespace suspension_health_monitor

@@ -47,13 +47,12 @@ std::array<double, 3> toPosition(const std::string& where, const OptionValue& va
   boost::algorithm::split(parts, inside, [](char c) { return c == ','; });
   std::array<double, 3> position{};
   if (parts.size() != position.size()) refuse(allowed);
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    try {
-      position[i] =
-          toNumber(where, boost::algorithm::trim_copy(parts[i]), -kVehicleTuning.farthest, kVehicleTuning.farthest);
-    } catch (const std::invalid_argument&) {
-      refuse(allowed);
-    }
+  const double most = kVehicleTuning.farthest;
+  try {
+    for (std::size_t i = 0; i < position.size(); ++i)
+      position[i] = toNumber(where, boost::algorithm::trim_copy(parts[i]), -most, most);
+  } catch (const std::invalid_argument&) {
+    refuse(allowed);
   }
   return position;
 }

@@ -10,6 +10,7 @@
 #include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 #include "suspension_health_monitor/strut_model.h"
 
@@ -33,7 +34,10 @@ class TravelObserver {
 
   bool full() const { return slow_.front().full(); }
 
-  static int delayOf(int natural_period);  ///< [samples]
+  /// [samples]
+  static int delayOf(int natural_period) {
+    return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
+  }
 
   /// At the sample so much before the newest one, once full():
   double travel() const { return fast(0); }      ///< d [m]
