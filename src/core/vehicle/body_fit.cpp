@@ -127,8 +127,8 @@ BodyFitResult describe(const Solution& solution) {
       if (body.numBars(kind) == 0) return Measured{0.0, 0.0};
       return measured([&](const Parameters& p) { return mobility(p)(i, i) * p[body.firstBar(kind) + b]; });
     };
-    const auto [i, j] = body.bar(b);
-    const BodyFitResult::Bar bar{body.bar(b),
+    const auto [i, j] = body.pairs[b];
+    const BodyFitResult::Bar bar{body.pairs[b],
                                  {atStrut(i, RigidBody::kStiffness), atStrut(j, RigidBody::kStiffness)},
                                  {atStrut(i, RigidBody::kDamping), atStrut(j, RigidBody::kDamping)}};
     if (isProven(bar.stiffness[0])) result.found.push_back(bar);
@@ -138,8 +138,8 @@ BodyFitResult describe(const Solution& solution) {
     if (!is_seen) number.stddev = std::numeric_limits<double>::infinity();
     return number;
   };
-  result.inertia = {InertiaDoubt::kNone, numberOf(0, body.seesPitch()), numberOf(1, body.seesRoll()),
-                    numberOf(2, body.seesPitch()), numberOf(3, body.seesRoll())};
+  result.inertia = {InertiaDoubt::kNone, numberOf(0, body.sees_pitch), numberOf(1, body.sees_roll),
+                    numberOf(2, body.sees_pitch), numberOf(3, body.sees_roll)};
   return result;
 }
 
@@ -168,11 +168,11 @@ RigidBody::RigidBody(Eigen::Index n, const StrutPlaces& places) : q_(Eigen::Matr
   // Two struts, or all on one line, do not see the body turn about that line.
   Eigen::MatrixXd q(n, 3);
   q << Eigen::VectorXd::Ones(n), x, y;
-  sees_pitch_ = scale_[0] > kVehicleTuning.smallest_spread;
-  sees_roll_ = scale_[1] > kVehicleTuning.smallest_spread && rankOf(q) == (sees_pitch_ ? 3 : 2);
-  if (!sees_pitch_) q.col(1) = y;
-  q_ = q.leftCols(1 + (sees_pitch_ ? 1 : 0) + (sees_roll_ ? 1 : 0));
-  if (sees_roll_) pairs_ = pairsOf(places);
+  sees_pitch = scale_[0] > kVehicleTuning.smallest_spread;
+  sees_roll = scale_[1] > kVehicleTuning.smallest_spread && rankOf(q) == (sees_pitch ? 3 : 2);
+  if (!sees_pitch) q.col(1) = y;
+  q_ = q.leftCols(1 + (sees_pitch ? 1 : 0) + (sees_roll ? 1 : 0));
+  if (sees_roll) pairs = pairsOf(places);
 }
 
 // S about the middle of the struts is 1/M (1 and inertia about the centre of gravity, x_c off): S_00 = 1 + x_c J
@@ -181,16 +181,16 @@ Eigen::Vector4d RigidBody::massAndPlace(const Eigen::VectorXd& parameters) const
   const Eigen::MatrixXd s = inertia(parameters);
   const Eigen::Index m = s.rows() - 1;
   Eigen::VectorXd lengths(m);
-  if (sees_pitch_) lengths[0] = scale_[0];
-  if (sees_roll_) lengths[m - 1] = scale_[1];
+  if (sees_pitch) lengths[0] = scale_[0];
+  if (sees_roll) lengths[m - 1] = scale_[1];
   const Eigen::MatrixXd j =
       lengths.cwiseInverse().asDiagonal() * s.bottomRightCorner(m, m) * lengths.cwiseInverse().asDiagonal();
   const Eigen::VectorXd first = lengths.cwiseInverse().asDiagonal() * s.col(0).tail(m);
   const Eigen::VectorXd centre = -solveSymmetric(j, first);
   const double share = 1.0 - centre.dot(j * centre);  // 1/M over S_00
   Eigen::Vector4d numbers = Eigen::Vector4d::Zero();
-  if (sees_pitch_) numbers[0] = j(0, 0) / share, numbers[2] = centre[0] + middle_[0];
-  if (sees_roll_) numbers[1] = j(m - 1, m - 1) / share, numbers[3] = centre[m - 1] + middle_[1];
+  if (sees_pitch) numbers[0] = j(0, 0) / share, numbers[2] = centre[0] + middle_[0];
+  if (sees_roll) numbers[1] = j(m - 1, m - 1) / share, numbers[3] = centre[m - 1] + middle_[1];
   return numbers;
 }
 
@@ -200,7 +200,7 @@ bool RigidBody::isVehicle(const Eigen::VectorXd& parameters) const {
     const double most = kVehicleTuning.longest_gyration * scale_[axis] * q_.col(column).cwiseAbs().maxCoeff();
     return numbers[axis] * most * most > 1.0;
   };
-  return (!sees_pitch_ || isPlausible(0, 1)) && (!sees_roll_ || isPlausible(1, q_.cols() - 1));
+  return (!sees_pitch || isPlausible(0, 1)) && (!sees_roll || isPlausible(1, q_.cols() - 1));
 }
 
 std::optional<BodyFitResult> fitRigidBody(const BodyRows& rows, const StrutPlaces& places,
@@ -211,7 +211,7 @@ std::optional<BodyFitResult> fitRigidBody(const BodyRows& rows, const StrutPlace
   if (!without) return std::nullopt;
   std::optional<Solution> named;  // with bars
   for (const Bars bars : {Bars::kStiffness, Bars::kStiffnessAndDamping}) {
-    if (!body.mayHaveBars()) break;
+    if (body.pairs.empty()) break;
     body.bars = bars;
     const auto with = solve(body, rows);
     if (!with || (named && !(named->phi > kMuchMore * with->phi))) break;

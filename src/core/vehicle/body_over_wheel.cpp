@@ -134,14 +134,6 @@ std::vector<std::optional<Response>> findBodies(const ImuSignals& signals) {
   return bodies;
 }
 
-/// @return b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
-Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies, std::size_t imus) {
-  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(bodies.size(), imus);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i]) push.row(i) = (bodies[i]->worth > kWorthHaving).select(bodies[i]->damping, 0.0).matrix().transpose();
-  return push;
-}
-
 /// @return the signal of the body over a wheel: of the IMUs the one that it pushes hardest, as far as wheels explain
 /// what that reads; else one that it turns.
 std::optional<std::size_t> bodyOver(std::size_t wheel, const Eigen::MatrixXd& push, const ImuSignals& signals,
@@ -205,7 +197,10 @@ bool describeStrut(const std::vector<BodyOverWheel>& pairs, const ImuSignals& gi
 
 std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals) {
   const std::vector<std::optional<Response>> bodies = findBodies(signals);
-  const Eigen::MatrixXd push = pushOf(bodies, signals.imus());
+  // b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
+  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(bodies.size(), signals.imus());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i]) push.row(i) = (bodies[i]->worth > kWorthHaving).select(bodies[i]->damping, 0.0).matrix().transpose();
   std::vector<BodyOverWheel> all, pairs;
   std::vector<std::size_t> served(signals.imus(), 0);
   for (std::size_t wheel = 0; wheel < signals.imus(); ++wheel) {
