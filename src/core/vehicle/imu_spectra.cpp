@@ -34,19 +34,13 @@ void ImuSpectra::push(std::size_t imu, Stamp stamp, const SixAxes& reading) {
   if ((stream.last && stamp <= *stream.last) || stamp < *origin_ || !reading.allFinite()) return;
   stream.last = stamp;
   stream.integrals.push(toSeconds(stamp - *origin_), reading.data(), phases_);
-  long slowest = stream.integrals.openHalf(), fastest = 0;
-  for (const Stream& each : streams_) {
-    slowest = std::min(slowest, each.integrals.openHalf());
-    fastest = std::max(fastest, each.integrals.openHalf());
-  }
+  const auto [slowest, fastest] = std::minmax_element(streams_.begin(), streams_.end(), isBehind);
   // An IMU that is silent holds the others up only as long as their half blocks are kept.
-  takeBlocks(std::max(slowest, fastest - FourierIntegrals::kHalves + 2));
+  takeBlocks(std::max(slowest->integrals.openHalf(), fastest->integrals.openHalf() - FourierIntegrals::kHalves + 2));
 }
 
 void ImuSpectra::restart() {
-  long end = 0;
-  for (const Stream& each : streams_) end = std::max(end, each.integrals.openHalf());
-  takeBlocks(end);
+  takeBlocks(std::max_element(streams_.begin(), streams_.end(), isBehind)->integrals.openHalf());
   for (Stream& each : streams_) {
     each.integrals.restart();
     each.last.reset();

@@ -54,6 +54,7 @@ class ImuSpectra {
     std::optional<Stamp> last = {};
   };
 
+  static bool isBehind(const Stream& a, const Stream& b) { return a.integrals.openHalf() < b.integrals.openHalf(); }
   void takeBlocks(long end);
 
   BlockBand band_;
