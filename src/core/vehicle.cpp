@@ -41,12 +41,10 @@ bool isOneStrut(const std::vector<std::string>& names) { return names.size() == 
 
 /// @throws std::invalid_argument  if a drive has another number of struts.
 std::vector<Drive> drivesOfOne(const std::vector<VehicleDrive>& drives) {
-  std::vector<Drive> own;
-  for (const VehicleDrive& drive : drives) {
+  return mapped(drives, [](const VehicleDrive& drive) {
     if (drive.struts.size() != 1) throw std::invalid_argument("a drive of more than one strut, must be of one");
-    own.push_back(drive.struts.front());
-  }
-  return own;
+    return drive.struts.front();
+  });
 }
 
 MonitorSettings settingsOf(const IdentifyOptions& options, double period) {

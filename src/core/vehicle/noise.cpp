@@ -5,6 +5,7 @@
 #include <optional>
 #include <random>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -188,8 +189,7 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   std::vector<StrutModel> linear;
   for (const StrutModel& model : models) linear.push_back({model.damping_to_mass, model.stiffness_to_mass, {}, {}});
   const std::vector<Remainder> of_noise = remaindersOf(noise, period, linear);
-  std::vector<std::vector<Remainder>> of_drives;
-  for (const StrutDrives& drive : drives) of_drives.push_back(remaindersOf(drive, period, models));
+  const auto of_drives = mapped(drives, [&](const StrutDrives& drive) { return remaindersOf(drive, period, models); });
   const auto runs_away = [](const std::vector<Remainder>& remainder) { return remainder.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
   const Eigen::Index reach = std::lround(kVehicleTuning.noise_reach / period);

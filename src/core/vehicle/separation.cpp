@@ -85,7 +85,6 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   requireNumStruts(names.size());
   requireNumKnownForces(drives.front().forces.size());
-  std::vector<Drive> of_first;
   for (const VehicleDrive& drive : drives) {
     if (drive.struts.size() != names.size())
       throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
@@ -97,9 +96,9 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
       throw std::invalid_argument("a drive with the known forces [" + join(namesOf(drive.forces)) + "], must be [" +
                                   join(namesOf(drives.front().forces)) + "] as in the first");
     requireOneGrid(drive);
-    of_first.push_back(drive.struts.front());
   }
-  return given ? *given : medianPeriod(of_first);
+  if (given) return *given;
+  return medianPeriod(mapped(drives, [](const VehicleDrive& drive) { return drive.struts.front(); }));
 }
 
 VehicleCoupling describe(const BodyRows& rows, const std::optional<BodyFitResult>& body,
