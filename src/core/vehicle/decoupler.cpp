@@ -4,17 +4,6 @@
 #include <cmath>
 
 namespace suspension_health_monitor {
-namespace {
-
-// The natural period of the slowest strut [samples], even.
-int naturalPeriod(const std::vector<StrutModel>& models, double period) {
-  double slowest = 0.0;
-  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
-  return 2 *
-         std::max(1, static_cast<int>(std::lround(std::min(slowest, kVehicleTuning.longest_period) / (2.0 * period))));
-}
-
-}  // namespace
 
 TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natural_period)
     : period_(period),
@@ -59,7 +48,10 @@ Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<Stru
                      const std::vector<double>& low_pass)
     : period_(period), taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass) {
   setRows(rows);
-  const int natural_period = naturalPeriod(models, period);
+  double slowest = 0.0;  // natural period [s], below in samples, even
+  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
+  slowest = std::min(slowest, kVehicleTuning.longest_period);
+  const int natural_period = 2 * std::max(1, static_cast<int>(std::lround(slowest / (2.0 * period))));
   const double forgetting = std::exp(-period / kVehicleTuning.mean_memory);
   force_means_.assign(rows.force.cols(), LimitedMean(forgetting));
   for (const StrutModel& model : models)

@@ -34,10 +34,9 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
   std::array<Eigen::Vector3d, kVehicleTuning.fewest_parts> parts;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   for (std::ptrdiff_t i = 0; i < kVehicleTuning.fewest_parts; ++i) {
-    Eigen::Vector3d& part = parts[i];
-    part = medianOf(begin + (end - begin) * i / kVehicleTuning.fewest_parts,
-                    begin + (end - begin) * (i + 1) / kVehicleTuning.fewest_parts);
-    gravity += part / kVehicleTuning.fewest_parts;
+    parts[i] = medianOf(begin + (end - begin) * i / kVehicleTuning.fewest_parts,
+                        begin + (end - begin) * (i + 1) / kVehicleTuning.fewest_parts);
+    gravity += parts[i] / kVehicleTuning.fewest_parts;
   }
   if (!isGravity(gravity.norm())) return;
   if (std::abs(gravity.norm() - kStandardGravity) > kLargestOffset) gain = gravity.norm() / kStandardGravity;
