@@ -78,7 +78,7 @@ Errors errorsAt(double horizon, const Drive& drive, const std::vector<Samples>& 
   for (const Samples& samples : drives) {
     SuspensionRegression regression(filter);
     RecursiveLeastSquares ls(kNumStrutParameters, recursive);
-    RecursiveLeastAbsolute la(kNumStrutParameters, recursive, {});
+    RecursiveLeastAbsolute la(kNumStrutParameters, recursive);
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const RegressionRow* row = regression.push(samples[k]);
       if (row == nullptr) continue;

@@ -97,8 +97,8 @@ Run run(const Case& test) {
   for (const Instant& now : test.instants) {
     const Stamp stamp = fromSeconds(1.0 + now.time);
     for (std::size_t i = 0; i < n; ++i) {
-      if (!test.by_body) taken({Sensor::kTop, i, stamp, {now.tops[i]}}, now.time);
-      taken({Sensor::kWheel, i, stamp, {now.wheels[i]}}, now.time);
+      if (!test.by_body) taken({Sensor::kSprung, i, stamp, {now.tops[i]}}, now.time);
+      taken({Sensor::kUnsprung, i, stamp, {now.wheels[i]}}, now.time);
     }
     if (test.by_body) {
       VehicleReading reading{Sensor::kBody, 0, stamp, {}};
@@ -110,8 +110,7 @@ Run run(const Case& test) {
     if (has_body || now.time < std::min(test.change_at - 1.0, test.instants.back().time - 1.0)) continue;
     has_body = true;
     for (std::size_t i = 0; i < n; ++i) result.all.push_back(blocks.overTheDrive(i));
-    if (BodyRows rows; blocks.rows(rows))
-      result.body = BodyFit(test.places.size(), test.places).fit(rows, blocks.rowsOfHalves());
+    if (BodyRows rows; blocks.rows(rows)) result.body = fitRigidBody(rows, test.places, blocks.rowsOfHalves());
   }
   return result;
 }

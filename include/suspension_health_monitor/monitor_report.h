@@ -76,7 +76,7 @@ struct StrutEstimate {
                                                    ///< own scatter only
   double stiffness_to_mass_stddev = std::nan("");  ///< [1/s^2], likewise
   double damping_model_stddev = 0.0;  ///< of b1, by what the model lacks: links, bushings, laws [1/s]. It is no part of
-                                      ///< changes, and 0 but in struts of a vehicle (BodyFit)
+                                      ///< changes, and 0 but in struts of a vehicle (fitRigidBody)
   double stiffness_model_stddev = 0.0;  ///< likewise of b0 [1/s^2]
   double correlation = 0.0;             ///< of the errors of b1 and b0 [-]; of the block estimate
   std::size_t num_effects = 0;          ///< in the model

@@ -1,11 +1,13 @@
 #include "suspension_health_monitor/vehicle.h"
 
 #include <algorithm>
+#include <deque>
 #include <stdexcept>
 
-#include "separator.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
+#include "suspension_health_monitor/internal/fit/noise_floor.h"
+#include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -19,8 +21,7 @@ namespace {
 /// @throws std::invalid_argument  if they are of another number of struts.
 template <class Options>
 std::vector<Options> optionsByStrut(const std::vector<Options>& options, std::size_t num_struts) {
-  if (options.empty()) return std::vector<Options>(num_struts);
-  if (options.size() == 1) return std::vector<Options>(num_struts, options.front());
+  if (options.size() <= 1) return std::vector<Options>(num_struts, options.empty() ? Options() : options.front());
   if (options.size() != num_struts)
     throw std::invalid_argument("options of " + std::to_string(options.size()) + " struts, must be of " +
                                 std::to_string(num_struts) + ", or one for all");
@@ -40,12 +41,10 @@ bool isOneStrut(const std::vector<std::string>& names) { return names.size() == 
 
 /// @throws std::invalid_argument  if a drive has another number of struts.
 std::vector<Drive> drivesOfOne(const std::vector<VehicleDrive>& drives) {
-  std::vector<Drive> own;
-  for (const VehicleDrive& drive : drives) {
+  return mapped(drives, [](const VehicleDrive& drive) {
     if (drive.struts.size() != 1) throw std::invalid_argument("a drive of more than one strut, must be of one");
-    own.push_back(drive.struts.front());
-  }
-  return own;
+    return drive.struts.front();
+  });
 }
 
 MonitorSettings settingsOf(const IdentifyOptions& options, double period) {
@@ -56,13 +55,233 @@ MonitorSettings settingsOf(const IdentifyOptions& options, double period) {
   return monitor;
 }
 
+/// Struts with what is known of them, to be separated again as more is known.
+struct Separator {
+  /// @param drives  must outlive this object.
+  Separator(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
+            const std::optional<double>& sample_period, const KnownModels& known)
+      : period(periodOf(drives, names, sample_period)), drives_(drives) {
+    if (!known.empty() && known.size() != names.size())
+      throw std::invalid_argument("models of " + std::to_string(known.size()) + " struts, must be of " +
+                                  std::to_string(names.size()) + " or of none");
+    learnRows(names);
+    if (!coupling) {
+      if (isUndersampled()) coupling.reason += kWheelsFolded;
+      return;
+    }
+    models = rows_.models();
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (known[i]) models[i] = *known[i];
+    const SensorNoise& noise = drives.front().noise;
+    noise_ = separateNoise(noise.empty() ? noiseOfOwnSensors(names.size()) : noise, period, rows_);
+  }
+
+  const double period;  ///< T [s]
+  VehicleCoupling coupling;
+  std::vector<StrutModel> models;  ///< by strut, that they are separated with
+
+  /// @return true if one IMU tells of the tops of several struts.
+  bool sharesNoise() const { return mostStrutsOfASensor(drives_.front().noise) > 1; }
+
+  /// Fits the models of the struts that are meant to the drives as an estimator sees them, and takes them from then on.
+  /// @return what was fitted, by strut; nothing where that failed, and of struts that are not meant.
+  std::vector<std::optional<ModelFit>> fitModels(const std::function<bool(std::size_t strut)>& is_meant) {
+    const std::vector<std::vector<Drive>> separated = separate(false);
+    std::vector<std::optional<ModelFit>> fits(models.size());
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      if (!is_meant(i)) continue;
+      const std::deque<DriveRecord> records = makeRecords(separated[i], period, models[i]);
+      fits[i] = fitOutputError(pointersTo(records), {}, models[i]);
+      if (fits[i]) models[i] = fits[i]->model;
+    }
+    return fits;
+  }
+
+  /// @param for_search  without what the models as they are now tell of the noise of shared sensors. Their errors are
+  /// in there instead, of which an estimator's standard deviations would know nothing. The shared noise in one
+  /// strut is estimated from all others.
+  /// @return by strut and drive.
+  std::vector<std::vector<Drive>> separate(bool for_search) const {
+    const auto separated = [&](const VehicleDrive& drive) { return separateStruts(drive, period, rows_, models); };
+    std::vector<StrutDrives> drives = mapped(drives_, separated);
+    StrutDrives noise = noise_;
+    if (for_search && sharesNoise()) takeSharedNoise(drives, noise, period, models);
+    std::vector<std::vector<Drive>> struts(noise.size());
+    for (std::size_t i = 0; i < struts.size(); ++i) {
+      for (StrutDrives& drive : drives) struts[i].push_back(std::move(drive[i]));
+      struts[i].front().noise = std::move(noise[i].samples);
+    }
+    return struts;
+  }
+
+ private:
+  // A grid made the samples out of the readings, so that each strut seems to have two accelerometers of its own.
+  void learnRows(const std::vector<std::string>& names) {
+    VehicleChannels vehicle = VehicleChannels::ofAccelerometers(names.size(), drives_.front().forces.size());
+    VehicleBlocks blocks(vehicle, period);
+    for (const VehicleDrive& drive : drives_) {
+      if (&drive != &drives_.front()) blocks.restart();
+      for (std::size_t k = 0; k < drive.struts.front().samples.size(); ++k) blocks.push(sampleOf(drive, k));
+    }
+    const std::optional<BodyRows> rows = blocks.rowsOverTheDrive();
+    const StrutPlaces& places = drives_.front().places;
+    if (places.size() == names.size() &&
+        static_cast<std::size_t>(mostStrutsOfASensor(drives_.front().noise)) == names.size())
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        vehicle.struts[i].sprung.reset();
+        vehicle.struts[i].position.emplace(places[i][0], places[i][1], 0.0);
+      }
+    const VehicleMistake mistake = blocks.claims(vehicle).find();
+    if (!rows || !rows->areKnown() || mistake.isContradiction()) {
+      coupling.reason = whyNotCoupled(mistake, names);
+      return;
+    }
+    std::optional<BodyFitResult> body;
+    if (names.size() > 1) body = fitRigidBody(*rows, places, blocks.rowsOfHalves());
+    rows_ = body ? body->combined(*rows) : *rows;
+    coupling = describe(rows_, body, namesOf(drives_.front().forces));
+  }
+
+  bool isUndersampled() const {
+    return std::any_of(drives_.begin(), drives_.end(), [&](const VehicleDrive& drive) {
+      return std::any_of(drive.struts.begin(), drive.struts.end(), [&](const Drive& strut) {
+        const DriveRecord record(strut, period);
+        return shareAtSamplingLimit({&record}) > kMostFolded;
+      });
+    });
+  }
+
+  const std::vector<VehicleDrive>& drives_;
+  BodyRows rows_;
+  StrutDrives noise_;  // empty without a coupling
+};
+
+bool names(const Diagnosis& strut) {
+  return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
+}
+
+// @return mean square that what was found explains [(m/s^2)^2].
+double explainedPower(const Diagnosis& strut) {
+  return strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse;
+}
+
+Verdict worstOf(const VehicleDiagnosis& found) {
+  for (const Verdict verdict : {Verdict::kEffectFound, Verdict::kSuspect, Verdict::kUnexplained})
+    for (std::size_t i = 0; i < found.struts.size(); ++i)
+      if (found.verdictOn(i) == verdict) return verdict;
+  return Verdict::kNothingMissing;
+}
+
+/// The search in all struts: what one lacks is named where it explains most, and the others are judged anew without it.
+class VehicleSearch {
+ public:
+  VehicleSearch(Separator separator, std::vector<DiagnoseOptions> options, const KnownModels& models)
+      : separator_(std::move(separator)), options_(std::move(options)), models_(models) {
+    // Residuals tell the noise that struts share only if the models fit these drives: the given ones are fitted first.
+    if (!models_.empty() && separator_.sharesNoise())
+      separator_.fitModels([&](std::size_t strut) { return models_[strut].has_value(); });
+    result_.coupling = separator_.coupling;
+    result_.struts.resize(size());
+    result_.drives.resize(size());
+  }
+
+  VehicleDiagnosis run(const std::vector<std::string>& strut_names) {
+    settleOpen();
+    if (settled_.size() > 1) reconsider();
+    dropMarginal();
+    fitFound();
+    result_.verdict = worstOf(result_);
+    result_.summary = summaryOf(result_, strut_names);
+    if (progress()) progress()(1.0);
+    return result_;
+  }
+
+ private:
+  std::size_t size() const { return separator_.models.size(); }
+  const std::function<void(double)>& progress() const { return options_.front().progress; }
+
+  // As long as a law was not known, a part of its force was taken for noise that struts share. So what was found is
+  // fitted once more, to drives out of which no such noise was taken.
+  void fitFound() {
+    if (!separator_.sharesNoise()) return;
+    const auto fits = separator_.fitModels([&](std::size_t strut) { return names(result_.struts[strut]); });
+    for (std::size_t i = 0; i < size(); ++i) {
+      Diagnosis& strut = result_.struts[i];
+      if (!fits[i]) continue;
+      const bool is_complete = strut.model().is_complete;
+      strut.final_fit = {fits[i]->model, fits[i]->stddev, true};
+      strut.final_fit->model.is_complete = is_complete;
+    }
+  }
+
+  void judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
+    DiagnoseOptions options = options_[strut];
+    options.most_effects = most_effects;
+    options.sample_period = separator_.period;
+    options.model = models_.empty() ? std::nullopt : models_[strut];
+    if (progress()) options.progress = [&](double share) { progress()(done_ + share * step); };
+    Diagnosis& found = result_.struts[strut];
+    found = diagnose(drives, options);
+    result_.drives[strut] = std::move(drives);
+    if (found) separator_.models[strut] = found.base.model;
+    done_ += step;
+  }
+
+  void settleOpen() {
+    while (settled_.size() < size()) {
+      auto separated = separator_.separate(true);
+      // What another round takes is not known.
+      const double step = (1.0 - done_) / (static_cast<double>(size() - settled_.size()) + 1.0);
+      std::optional<std::size_t> best;
+      for (std::size_t i = 0; i < size(); ++i) {
+        if (std::find(settled_.begin(), settled_.end(), i) != settled_.end()) continue;
+        judge(i, std::move(separated[i]), step, options_[i].most_effects);
+        const Diagnosis& found = result_.struts[i];
+        if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
+      }
+      if (!best) return;
+      // What the others seem to lack may be this effect: they are judged anew without it.
+      settled_.push_back(*best);
+      separator_.models[*best] = result_.struts[*best].model();
+    }
+  }
+
+  // What was named first may have been that of a strut which was named later.
+  void reconsider() {
+    const std::vector<std::size_t> before = std::exchange(settled_, {});
+    const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
+    for (const std::size_t strut : before) {
+      judge(strut, std::move(separator_.separate(true)[strut]), step, options_[strut].most_effects);
+      if (!names(result_.struts[strut])) continue;
+      settled_.push_back(strut);
+      separator_.models[strut] = result_.struts[strut].model();
+    }
+    if (settled_.size() < before.size()) settleOpen();
+  }
+
+  // A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
+  void dropMarginal() {
+    double most = 0.0;
+    for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
+    for (const std::size_t strut : settled_)
+      if (explainedPower(result_.struts[strut]) < kWorthHaving * most) judge(strut, result_.drives[strut], 0.0, 0);
+  }
+
+  Separator separator_;
+  std::vector<DiagnoseOptions> options_;  // by strut
+  const KnownModels& models_;
+  VehicleDiagnosis result_;
+  std::vector<std::size_t> settled_;  // struts that lack something, in the order in which it was found
+  double done_ = 0.0;                 // of the progress
+};
+
 }  // namespace
 
 SeparatedVehicle separateVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& names,
                                  const std::optional<double>& sample_period, const KnownModels& models) {
   if (isOneStrut(names)) return {{}, {drivesOfOne(drives)}, {}};
   const Separator separator(drives, names, sample_period, models);
-  SeparatedVehicle separated{separator.coupling(), {}, separator.models()};
+  SeparatedVehicle separated{separator.coupling, {}, separator.models};
   if (separated.coupling) separated.struts = separator.separate(false);
   return separated;
 }
@@ -98,142 +317,6 @@ VehicleIdentification identifyVehicle(const std::vector<VehicleDrive>& drives, c
   return identified(monitor, names, namesOf(drives.front().forces));
 }
 
-namespace {
-
-bool names(const Diagnosis& strut) {
-  return strut && (strut.verdict == Verdict::kEffectFound || strut.verdict == Verdict::kSuspect);
-}
-
-// @return mean square that what was found explains [(m/s^2)^2].
-double explainedPower(const Diagnosis& strut) {
-  return strut.explained_share * strut.structured_share * strut.base.held_out_rmse * strut.base.held_out_rmse;
-}
-
-Verdict worstOf(const VehicleDiagnosis& found) {
-  for (const Verdict verdict : {Verdict::kEffectFound, Verdict::kSuspect, Verdict::kUnexplained})
-    for (std::size_t i = 0; i < found.struts.size(); ++i)
-      if (found.verdictOn(i) == verdict) return verdict;
-  return Verdict::kNothingMissing;
-}
-
-/// The search in all struts: what one lacks is named where it explains most, and the others are judged anew without it.
-class VehicleSearch {
- public:
-  VehicleSearch(Separator separator, std::vector<DiagnoseOptions> options, const KnownModels& models)
-      : separator_(std::move(separator)), options_(std::move(options)), models_(models) {
-    fitGiven();
-    result_.coupling = separator_.coupling();
-    result_.struts.resize(size());
-    result_.drives.resize(size());
-  }
-
-  VehicleDiagnosis run(const std::vector<std::string>& strut_names) {
-    settleOpen();
-    if (settled_.size() > 1) reconsider();
-    dropMarginal();
-    fitFound();
-    result_.verdict = worstOf(result_);
-    result_.summary = summaryOf(result_, strut_names);
-    if (progress()) progress()(1.0);
-    return result_;
-  }
-
- private:
-  std::size_t size() const { return separator_.models().size(); }
-  const std::function<void(double)>& progress() const { return options_.front().progress; }
-  bool isSettled(std::size_t strut) const {
-    return std::find(settled_.begin(), settled_.end(), strut) != settled_.end();
-  }
-
-  // Residuals tell the noise that struts share only if the models fit these drives: the given ones are fitted first.
-  void fitGiven() {
-    if (!separator_.sharesNoise()) return;
-    std::vector<std::size_t> given;
-    for (std::size_t i = 0; i < models_.size(); ++i)
-      if (models_[i]) given.push_back(i);
-    separator_.fitModels(given);
-  }
-
-  // As long as a law was not known, a part of its force was taken for noise that struts share. So what was found is
-  // fitted once more, to drives out of which no such noise was taken.
-  void fitFound() {
-    if (!separator_.sharesNoise()) return;
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < size(); ++i)
-      if (names(result_.struts[i])) found.push_back(i);
-    const std::vector<std::optional<ModelFit>> fits = separator_.fitModels(found);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      Diagnosis& strut = result_.struts[found[k]];
-      if (!fits[k]) continue;
-      const bool is_complete = strut.model().is_complete;
-      strut.final_fit = {fits[k]->model, fits[k]->stddev, true};
-      strut.final_fit->model.is_complete = is_complete;
-    }
-  }
-
-  void judge(std::size_t strut, std::vector<Drive> drives, double step, int most_effects) {
-    DiagnoseOptions options = options_[strut];
-    options.most_effects = most_effects;
-    options.sample_period = separator_.period();
-    options.model = models_.empty() ? std::nullopt : models_[strut];
-    if (progress()) options.progress = [&](double share) { progress()(done_ + share * step); };
-    Diagnosis& found = result_.struts[strut];
-    found = diagnose(drives, options);
-    result_.drives[strut] = std::move(drives);
-    if (found) separator_.setModel(strut, found.base.model);
-    done_ += step;
-  }
-
-  void settleOpen() {
-    while (settled_.size() < size()) {
-      auto separated = separator_.separate(true);
-      // What another round takes is not known.
-      const double step = (1.0 - done_) / (static_cast<double>(size() - settled_.size()) + 1.0);
-      std::optional<std::size_t> best;
-      for (std::size_t i = 0; i < size(); ++i) {
-        if (isSettled(i)) continue;
-        judge(i, std::move(separated[i]), step, options_[i].most_effects);
-        const Diagnosis& found = result_.struts[i];
-        if (names(found) && (!best || explainedPower(found) > explainedPower(result_.struts[*best]))) best = i;
-      }
-      if (!best) return;
-      // What the others seem to lack may be this effect: they are judged anew without it.
-      settled_.push_back(*best);
-      separator_.setModel(*best, result_.struts[*best].model());
-    }
-  }
-
-  // What was named first may have been that of a strut which was named later.
-  void reconsider() {
-    const std::vector<std::size_t> before = std::exchange(settled_, {});
-    const double step = (1.0 - done_) / (static_cast<double>(before.size()) + 1.0);
-    for (const std::size_t strut : before) {
-      judge(strut, std::move(separator_.separate(true)[strut]), step, options_[strut].most_effects);
-      if (!names(result_.struts[strut])) continue;
-      settled_.push_back(strut);
-      separator_.setModel(strut, result_.struts[strut].model());
-    }
-    if (settled_.size() < before.size()) settleOpen();
-  }
-
-  // A smaller share of what the strongest effect does is what the errors of the ratios carry over from it.
-  void dropMarginal() {
-    double most = 0.0;
-    for (const std::size_t strut : settled_) most = std::max(most, explainedPower(result_.struts[strut]));
-    for (const std::size_t strut : settled_)
-      if (explainedPower(result_.struts[strut]) < kWorthHaving * most) judge(strut, result_.drives[strut], 0.0, 0);
-  }
-
-  Separator separator_;
-  std::vector<DiagnoseOptions> options_;  // by strut
-  const KnownModels& models_;
-  VehicleDiagnosis result_;
-  std::vector<std::size_t> settled_;  // struts that lack something, in the order in which it was found
-  double done_ = 0.0;                 // of the progress
-};
-
-}  // namespace
-
 VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const std::vector<std::string>& strut_names,
                                  const std::vector<DiagnoseOptions>& options, const KnownModels& models) {
   std::vector<DiagnoseOptions> by_strut = optionsByStrut(options, strut_names.size());
@@ -246,9 +329,9 @@ VehicleDiagnosis diagnoseVehicle(const std::vector<VehicleDrive>& drives, const 
     return one;
   }
   Separator separator(drives, strut_names, samplePeriodOf(options), models);
-  if (separator.coupling()) return VehicleSearch(std::move(separator), std::move(by_strut), models).run(strut_names);
+  if (separator.coupling) return VehicleSearch(std::move(separator), std::move(by_strut), models).run(strut_names);
   VehicleDiagnosis nothing;
-  nothing.coupling = separator.coupling();
+  nothing.coupling = separator.coupling;
   nothing.summary = "The drives " + nothing.coupling.reason + ".";
   return nothing;
 }

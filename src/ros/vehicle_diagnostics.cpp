@@ -16,27 +16,27 @@
 namespace suspension_health_monitor {
 namespace {
 
-void setBody(const std::optional<BodyInertia>& body, CouplingInUse& msg) {
-  const Measured unknown{kUnknown, kUnknown};
-  const auto set = [](const Measured& from, double& value, double& stddev) {
-    value = from.value;
-    stddev = from.stddev;
+void setBody(const BodyInertia& body, CouplingInUse& msg) {
+  const bool is_known = body.doubt == InertiaDoubt::kNone;
+  const auto set = [&](const Measured& from, double& value, double& stddev) {
+    value = is_known ? from.value : kUnknown;
+    stddev = is_known ? from.stddev : kUnknown;
   };
-  set(body ? body->mass_to_pitch_inertia : unknown, msg.mass_to_pitch_inertia, msg.mass_to_pitch_inertia_stddev);
-  set(body ? body->mass_to_roll_inertia : unknown, msg.mass_to_roll_inertia, msg.mass_to_roll_inertia_stddev);
-  set(body ? body->x : unknown, msg.centre_of_gravity[0], msg.centre_of_gravity_stddev[0]);
-  set(body ? body->y : unknown, msg.centre_of_gravity[1], msg.centre_of_gravity_stddev[1]);
+  set(body.mass_to_pitch_inertia, msg.mass_to_pitch_inertia, msg.mass_to_pitch_inertia_stddev);
+  set(body.mass_to_roll_inertia, msg.mass_to_roll_inertia, msg.mass_to_roll_inertia_stddev);
+  set(body.x, msg.centre_of_gravity[0], msg.centre_of_gravity_stddev[0]);
+  set(body.y, msg.centre_of_gravity[1], msg.centre_of_gravity_stddev[1]);
 }
 
-void describeBody(const BodyInertiaResult& found, Status& status) {
+void describeBody(const BodyInertia& body, Status& status) {
   const auto add = [&](const char* name, const Measured& number) {
     status.addf(name, "%.4g +- %.2g", number.value, number.stddev);
   };
-  if (!found.body) return status.add("body", suspension_health_monitor::describe(found.doubt));
-  add("M/Iyy [1/m^2]", found.body->mass_to_pitch_inertia);
-  add("M/Ixx [1/m^2]", found.body->mass_to_roll_inertia);
-  add("centre of gravity x [m]", found.body->x);
-  add("centre of gravity y [m]", found.body->y);
+  if (body.doubt != InertiaDoubt::kNone) return status.add("body", suspension_health_monitor::describe(body.doubt));
+  add("M/Iyy [1/m^2]", body.mass_to_pitch_inertia);
+  add("M/Ixx [1/m^2]", body.mass_to_roll_inertia);
+  add("centre of gravity x [m]", body.x);
+  add("centre of gravity y [m]", body.y);
 }
 
 void setBars(const std::vector<BodyFitResult::Bar>& bars, const std::vector<std::string>& struts, CouplingInUse& msg) {
@@ -64,7 +64,7 @@ CouplingInUse toMsg(const VehicleCoupling& coupling, const VehicleMonitor* monit
   msg.forces = forces;
   msg.condition = kUnknown;
   msg.model_error = coupling.model_error;
-  setBody(msg.known ? inertiaOf(monitor->body(), placesOf(*monitor)).body : std::nullopt, msg);
+  setBody(msg.known ? inertiaOf(monitor->body(), placesOf(*monitor)) : BodyInertia{InertiaDoubt::kUncertain}, msg);
   if (!msg.known) {
     msg.ratios.assign(struts.size() * struts.size(), kUnknown);
     msg.stddevs = msg.ratios;

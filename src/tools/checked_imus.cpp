@@ -111,7 +111,7 @@ void CheckedImus::orient() {
     rates.push_back(is_known ? imu.survey.rate() : HUGE_VAL);
     has_gyro.push_back(imu.has_gyro && is_known);
   }
-  pairs = findBodiesOverWheels(spectra->along(ups, has_gyro), rates);
+  pairs = findBodiesOverWheels(spectra->along(ups, has_gyro, rates));
   // Of two IMUs against each other the one turns that gravity says nothing of, with all that it belongs to.
   for (const BodyOverWheel& first : std::vector<BodyOverWheel>(pairs)) {
     if (!first.is_reversed || imus[first.body].by_gravity || !imus[first.wheel].by_gravity) continue;

@@ -32,7 +32,7 @@ struct Found {
 
   VehicleIdentification vehicle;
   std::vector<std::string> changes;  // by strut, against the healthy one
-  std::optional<BodyInertiaResult> body;
+  std::optional<BodyInertia> body;
   std::vector<StrutCurves> curves;  // by strut, if they are asked for
   std::vector<json> against;        // by strut, if there is another drive
 };

@@ -91,7 +91,7 @@ RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
     grid.describe(drive);
     drive.places = grid.vehicle().places();
   }
-  layout.turn(recorded.bags.front().grid.bodyLevel().mount());
+  layout.turn(recorded.bags.front().grid.bodyLevel().mount);
   return recorded;
 }
 

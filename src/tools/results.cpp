@@ -186,12 +186,11 @@ json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, con
   return whole;
 }
 
-void printBody(const BodyInertiaResult& found) {
-  if (!found.body) {
-    std::printf("%s\n", describe(found.doubt).c_str());
+void printBody(const BodyInertia& body) {
+  if (body.doubt != InertiaDoubt::kNone) {
+    std::printf("%s\n", describe(body.doubt).c_str());
     return;
   }
-  const BodyInertia& body = *found.body;
   std::printf(
       "M/Iyy %.4g +- %.2g 1/m^2, M/Ixx %.4g +- %.2g 1/m^2, centre of gravity %.3g +- %.2g m ahead and %.3g +- %.2g m "
       "to the left of where positions count from\n",
@@ -199,9 +198,8 @@ void printBody(const BodyInertiaResult& found) {
       body.mass_to_roll_inertia.stddev, body.x.value, body.x.stddev, body.y.value, body.y.stddev);
 }
 
-json toJson(const BodyInertiaResult& found) {
-  if (!found.body) return {{"reason", describe(found.doubt)}};
-  const BodyInertia& body = *found.body;
+json toJson(const BodyInertia& body) {
+  if (body.doubt != InertiaDoubt::kNone) return {{"reason", describe(body.doubt)}};
   return {{"mass_to_pitch_inertia", body.mass_to_pitch_inertia.value},
           {"mass_to_pitch_inertia_stddev", body.mass_to_pitch_inertia.stddev},
           {"mass_to_roll_inertia", body.mass_to_roll_inertia.value},

@@ -97,7 +97,7 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
 json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps);
 
 /// How the body's mass is spread.
-void printBody(const BodyInertiaResult& found);
-json toJson(const BodyInertiaResult& found);
+void printBody(const BodyInertia& body);
+json toJson(const BodyInertia& body);
 
 }  // namespace suspension_health_monitor

@@ -78,7 +78,7 @@ constexpr double kNoise = 0.002;
 
 TEST(BodyFit, FindsTheBodyOfTwoThreeFourAndSixStruts) {
   for (const Body& body : {halfCar(), tricycle(), car(), sixWheels()}) {
-    const auto fit = BodyFit(body.places.size(), body.places).fit(body.rows(kNoise, 0.0, 1));
+    const auto fit = fitRigidBody(body.rows(kNoise, 0.0, 1), body.places);
     ASSERT_TRUE(fit) << body.places.size();
     EXPECT_LT(fit->phi, 0.005);
     EXPECT_NEAR(fit->inertia.mass_to_pitch_inertia.value, body.mass_to_pitch,
@@ -107,7 +107,7 @@ TEST(BodyFit, TellsTheErrorOfTheModelAndItsIntervalsHold) {
   int inside = 0;
   for (unsigned seed = 1; seed <= kDraws; ++seed) {
     const BodyRows rows = body.rows(kNoise, kError, seed);
-    const auto fit = BodyFit(body.places.size(), body.places).fit(rows, {rows, rows});
+    const auto fit = fitRigidBody(rows, body.places, {rows, rows});
     ASSERT_TRUE(fit);
     phi += fit->phi / kDraws;
     EXPECT_TRUE(fit->found.empty()) << "bars that are none";
@@ -124,8 +124,8 @@ TEST(BodyFit, TellsTheErrorOfTheModelAndItsIntervalsHold) {
 TEST(BodyFit, NamesABarAndItsShare) {
   Body body = car();
   body.bar_k = 8.0;
-  const auto fit = BodyFit(body.places.size(), body.places)
-                       .fit(body.rows(kNoise, 0.0, 1), {body.rows(kNoise, 0.0, 2), body.rows(kNoise, 0.0, 3)});
+  const auto fit =
+      fitRigidBody(body.rows(kNoise, 0.0, 1), body.places, {body.rows(kNoise, 0.0, 2), body.rows(kNoise, 0.0, 3)});
   ASSERT_TRUE(fit);
   ASSERT_EQ(fit->found.size(), 1u);
   EXPECT_EQ(fit->found[0].struts, StrutPair(0, 1));
@@ -140,20 +140,20 @@ TEST(BodyFit, NamesNoBarByNegativeOnesOrByHalvesThatDisagree) {
   Body negative = car(), none = car(), bar = car();
   negative.bar_k = -4.0;
   bar.bar_k = 8.0;
-  const BodyFit fit(negative.places.size(), negative.places);
-  const auto by_negative =
-      fit.fit(negative.rows(kNoise, 0.0, 1), {negative.rows(kNoise, 0.0, 2), negative.rows(kNoise, 0.0, 3)});
+  const auto by_negative = fitRigidBody(negative.rows(kNoise, 0.0, 1), negative.places,
+                                        {negative.rows(kNoise, 0.0, 2), negative.rows(kNoise, 0.0, 3)});
   ASSERT_TRUE(by_negative);
   EXPECT_TRUE(by_negative->found.empty());
   EXPECT_GT(by_negative->phi, 0.02) << "what no bar explains is an error of the model";
-  const auto by_halves = fit.fit(bar.rows(kNoise, 0.0, 1), {bar.rows(kNoise, 0.0, 2), none.rows(kNoise, 0.0, 3)});
+  const auto by_halves =
+      fitRigidBody(bar.rows(kNoise, 0.0, 1), bar.places, {bar.rows(kNoise, 0.0, 2), none.rows(kNoise, 0.0, 3)});
   ASSERT_TRUE(by_halves);
   EXPECT_TRUE(by_halves->found.empty());
 }
 
 TEST(BodyFit, AbsoluteValuesCarryTheErrorOfTheModelAndFriction) {
   const Body body = car();
-  const auto fit = BodyFit(body.places.size(), body.places).fit(body.rows(kNoise, 0.05, 1));
+  const auto fit = fitRigidBody(body.rows(kNoise, 0.05, 1), body.places);
   ASSERT_TRUE(fit);
   const Eigen::Vector2d own(4.0, 80.0);
   const Eigen::Array2d variances = fit->modelVariances(0, own, 0.3);
@@ -165,10 +165,9 @@ TEST(BodyFit, AbsoluteValuesCarryTheErrorOfTheModelAndFriction) {
 TEST(BodyFit, RowsOfOneSensorAreNoMoreThanItsMotions) {
   const Body body = car();
   BodyRows rows = body.rows(kNoise, 0.05, 1);
-  const BodyFit fit(body.places.size(), body.places);
-  const auto apart = fit.fit(rows);
+  const auto apart = fitRigidBody(rows, body.places);
   rows.is_by_body = true;
-  const auto together = fit.fit(rows);
+  const auto together = fitRigidBody(rows, body.places);
   ASSERT_TRUE(apart && together);
   EXPECT_GT(together->b1[0].stddev, 1.2 * apart->b1[0].stddev);
 }

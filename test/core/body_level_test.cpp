@@ -39,24 +39,24 @@ TEST(BodyLevel, TurnsAnIMUThatLeansAnyhowUpright) {
       const Matrix3d imu_in_body = turn(degrees, axis);
       const BodyLevel level(drive(imu_in_body));
       const Vector3d up_in_imu = imu_in_body.transpose() * Vector3d::UnitZ();
-      EXPECT_NEAR(level.lean(), std::acos(up_in_imu.z()), kMedianOff) << degrees;
-      EXPECT_LT((level.mount() * up_in_imu - Vector3d::UnitZ()).norm(), kMedianOff) << degrees;
-      EXPECT_NEAR(level.mount().determinant(), 1.0, 1e-10);
-      EXPECT_LT((level.mount() * level.mount().transpose() - Matrix3d::Identity()).norm(), 1e-10);
+      EXPECT_NEAR(level.lean, std::acos(up_in_imu.z()), kMedianOff) << degrees;
+      EXPECT_LT((level.mount * up_in_imu - Vector3d::UnitZ()).norm(), kMedianOff) << degrees;
+      EXPECT_NEAR(level.mount.determinant(), 1.0, 1e-10);
+      EXPECT_LT((level.mount * level.mount.transpose() - Matrix3d::Identity()).norm(), 1e-10);
     }
 }
 
 TEST(BodyLevel, LeavesWhatARoadMayBe) {
   const BodyLevel level(drive(turn(3.0, {0.0, 1.0, 0.0})));
-  EXPECT_NEAR(level.lean(), 3.0 / 180.0 * M_PI, kMedianOff);
-  EXPECT_EQ(level.mount(), Matrix3d::Identity());
+  EXPECT_NEAR(level.lean, 3.0 / 180.0 * M_PI, kMedianOff);
+  EXPECT_EQ(level.mount, Matrix3d::Identity());
 }
 
 TEST(BodyLevel, SaysNothingOfAnIMUThatTakesGravityOff) {
   for (const double offset : {0.0, 0.8}) {
     const BodyLevel level(drive(turn(90.0, {0.0, 1.0, 0.0}), offset));
-    EXPECT_EQ(level.lean(), 0.0);
-    EXPECT_EQ(level.mount(), Matrix3d::Identity());
+    EXPECT_EQ(level.lean, 0.0);
+    EXPECT_EQ(level.mount, Matrix3d::Identity());
   }
 }
 
@@ -65,14 +65,14 @@ TEST(BodyLevel, KnowsAnIMUThatReadsInG) {
   std::vector<Vector3d> readings = drive(imu_in_body);
   for (Vector3d& reading : readings) reading /= kStandardGravity;
   const BodyLevel level(readings);
-  EXPECT_NEAR(level.gain(), 1.0 / kStandardGravity, 0.01 / kStandardGravity);
-  EXPECT_NEAR(level.lean(), 30.0 / 180.0 * M_PI, kMedianOff);
+  EXPECT_NEAR(level.gain, 1.0 / kStandardGravity, 0.01 / kStandardGravity);
+  EXPECT_NEAR(level.lean, 30.0 / 180.0 * M_PI, kMedianOff);
 }
 
 TEST(BodyLevel, IsNotMovedByWrongReadings) {
   std::vector<Vector3d> readings = drive(turn(30.0, {0.0, 1.0, 0.0}));
   for (std::size_t k = 0; k < readings.size(); k += 20) readings[k] = Vector3d(1e60, -1e60, 1e9);
-  EXPECT_NEAR(BodyLevel(readings).lean(), 30.0 / 180.0 * M_PI, 0.1 * 1.5 / 9.81 + kMedianOff);
+  EXPECT_NEAR(BodyLevel(readings).lean, 30.0 / 180.0 * M_PI, 0.1 * 1.5 / 9.81 + kMedianOff);
 }
 
 constexpr double kPeriod = 0.01;

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -7,6 +5,8 @@
 #include <complex>
 #include <random>
 #include <vector>
+
+#include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -68,8 +68,8 @@ std::vector<BodyOverWheel> found(const std::vector<Lines>& imus, double late = 0
     }
   spectra.restart();
   const std::vector<Eigen::Vector3d> up(imus.size(), Eigen::Vector3d::UnitZ());
-  return findBodiesOverWheels(spectra.along(up, std::vector<bool>(imus.size(), false)),
-                              std::vector<double>(imus.size(), kRate));
+  return findBodiesOverWheels(
+      spectra.along(up, std::vector<bool>(imus.size(), false), std::vector<double>(imus.size(), kRate)));
 }
 
 TEST(ImuSpectra, RmsOfASineIsInItsBandAlone) {

@@ -78,13 +78,13 @@ TEST(MonitorSettings, SettingsReachTheEstimators) {
   EXPECT_EQ(paper.filter(0.02).rule, IntegrationRule::kTrapezoid);
   EXPECT_EQ(paper.recursive(0).forgetting_factor, 0.98);
   EXPECT_EQ(paper.recursive(0).initial_variance_rule, InitialVariance::kAbsolute);
-  EXPECT_EQ(paper.estimators.least_absolute.start_rows, 150);
-  EXPECT_EQ(paper.estimators.least_absolute.small_divisor_rule, SmallDivisor::kAbsolute);
-  EXPECT_EQ(paper.estimators.least_absolute.small_divisor, 1e-8);
-  EXPECT_FALSE(paper.estimators.least_absolute.scale_covariance_at_start);
+  EXPECT_EQ(paper.estimators.recursive.start_rows, 150);
+  EXPECT_EQ(paper.estimators.recursive.small_divisor_rule, SmallDivisor::kAbsolute);
+  EXPECT_EQ(paper.estimators.recursive.small_divisor, 1e-8);
+  EXPECT_FALSE(paper.estimators.recursive.scale_covariance_at_start);
   const MonitorSettings live = liveOptions();
   EXPECT_EQ(live.recursive(0).initial_variance_rule, InitialVariance::kRelative);
-  EXPECT_EQ(live.estimators.least_absolute.small_divisor_rule, SmallDivisor::kRelative);
+  EXPECT_EQ(live.estimators.recursive.small_divisor_rule, SmallDivisor::kRelative);
   MonitorSettings health;
   health.nominal_damping_to_mass = 1.0;
   health.nominal_stiffness_to_mass = 2.0;

@@ -13,8 +13,8 @@ namespace {
 
 // The settings of data/make_reference.py.
 constexpr IntegralFilterOptions kFilter{30, 0.02, IntegrationRule::kTrapezoid};
-constexpr RecursiveOptions kRecursive{0.98, 1e5, InitialVariance::kAbsolute};
-constexpr LeastAbsoluteOptions kLeastAbsolute{150, SmallDivisor::kAbsolute, 1e-8, false};
+constexpr RecursiveOptions kRecursive{0.98, 1e5,  InitialVariance::kAbsolute, 0, false, 150, SmallDivisor::kAbsolute,
+                                      1e-8, false};
 
 using Table = std::vector<std::vector<double>>;
 
@@ -22,7 +22,7 @@ using Table = std::vector<std::vector<double>>;
 Table identify(const Table& input) {
   SuspensionRegression regression(kFilter);
   RecursiveLeastSquares ls(kNumStrutParameters, kRecursive);
-  RecursiveLeastAbsolute la(kNumStrutParameters, kRecursive, kLeastAbsolute);
+  RecursiveLeastAbsolute la(kNumStrutParameters, kRecursive);
   Table result;
   for (const std::vector<double>& line : input) {
     const RegressionRow* row = regression.push({fromSeconds(line[0]), line[1], line[2]});

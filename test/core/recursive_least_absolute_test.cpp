@@ -16,9 +16,9 @@ namespace {
 
 const Eigen::VectorXd kTheta = vectorOf({3.0, -14.0});
 
-template <class Estimator, class... Options>
-Eigen::VectorXd estimate(const std::vector<RegressionRow>& rows, const Options&... options) {
-  Estimator estimator(static_cast<int>(rows.front().regressor.size()), options...);
+template <class Estimator>
+Eigen::VectorXd estimate(const std::vector<RegressionRow>& rows, const RecursiveOptions& options = {}) {
+  Estimator estimator(static_cast<int>(rows.front().regressor.size()), options);
   for (const RegressionRow& row : rows) estimator.update(row);
   return estimator.parameters();
 }
@@ -27,11 +27,10 @@ Eigen::VectorXd estimate(const std::vector<RegressionRow>& rows, const Options&.
 TEST(RecursiveLeastAbsolute, OfAConstantTendsToTheMedianWhereLeastSquaresTendsToTheMean) {
   std::mt19937_64 engine(1);
   std::exponential_distribution<double> exponential;
-  const RecursiveOptions recursive{0.99, 1e5, InitialVariance::kRelative};
-  LeastAbsoluteOptions fine;
+  RecursiveOptions fine{0.99, 1e5, InitialVariance::kRelative};
   fine.small_divisor = 0.01;
-  RecursiveLeastSquares ls(1, recursive);
-  RecursiveLeastAbsolute la(1, recursive, fine);
+  RecursiveLeastSquares ls(1, fine);
+  RecursiveLeastAbsolute la(1, fine);
   double ls_sum = 0.0, la_sum = 0.0;
   const int count = 50'000;
   for (int k = 0; k < count; ++k) {
@@ -54,17 +53,17 @@ std::vector<RegressionRow> rowsWithOutliers(int count) {
 
 TEST(RecursiveLeastAbsolute, ShrugsOffOutliersThatCarryLeastSquaresAway) {
   const auto rows = rowsWithOutliers(2000);
-  EXPECT_GT((estimate<RecursiveLeastSquares>(rows, RecursiveOptions{}) - kTheta).norm(), 1.0);
+  EXPECT_GT((estimate<RecursiveLeastSquares>(rows) - kTheta).norm(), 1.0);
   // One standard deviation of LS without outliers over 50 rows is 0.1 sqrt(2 / 50) = 0.02.
-  EXPECT_LT((estimate<RecursiveLeastAbsolute>(rows, RecursiveOptions{}, LeastAbsoluteOptions{}) - kTheta).norm(), 0.15);
+  EXPECT_LT((estimate<RecursiveLeastAbsolute>(rows) - kTheta).norm(), 0.15);
 }
 
 TEST(RecursiveLeastAbsolute, FollowsLeastSquaresUntilItTakesOver) {
   const auto rows = randomRows(kTheta, 20, 0.1, 3);
-  LeastAbsoluteOptions options;
+  RecursiveOptions options;
   options.start_rows = 10;
   RecursiveLeastSquares ls(2, {});
-  RecursiveLeastAbsolute la(2, {}, options);
+  RecursiveLeastAbsolute la(2, options);
   for (int k = 0; k < 20; ++k) {
     const auto& row = rows[static_cast<std::size_t>(k)];
     EXPECT_EQ(ls.update(row) == la.update(row), k <= 10) << "row " << k;
@@ -75,9 +74,9 @@ TEST(RecursiveLeastAbsolute, FollowsLeastSquaresUntilItTakesOver) {
 // Eq. (24)-(26) as printed, for a start from LS.
 TEST(RecursiveLeastAbsolute, IsEquations24To26WithThePapersSettings) {
   const auto rows = randomRows(kTheta, 200, 0.1, 4);
-  const RecursiveOptions recursive{0.98, 1e5, InitialVariance::kAbsolute};
-  const LeastAbsoluteOptions paper{50, SmallDivisor::kAbsolute, 1e-8, false};
-  RecursiveLeastAbsolute la(2, recursive, paper);
+  const RecursiveOptions paper{0.98, 1e5,  InitialVariance::kAbsolute, 0, false, 50, SmallDivisor::kAbsolute,
+                               1e-8, false};
+  RecursiveLeastAbsolute la(2, paper);
   Eigen::MatrixXd p;
   Eigen::VectorXd theta;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -97,13 +96,13 @@ TEST(RecursiveLeastAbsolute, IsEquations24To26WithThePapersSettings) {
   }
 }
 
-Eigen::VectorXd strutEstimateIn(double unit, const LeastAbsoluteOptions& options) {
+Eigen::VectorXd strutEstimateIn(double unit, const RecursiveOptions& options) {
   auto drive = healthyPaperDrive(30.0, 0.024);
   for (CornerSample& sample : drive) {
     sample.sprung_acceleration *= unit;
     sample.unsprung_acceleration *= unit;
   }
-  return estimate<RecursiveLeastAbsolute>(strutRows(drive, {}), RecursiveOptions{}, options);
+  return estimate<RecursiveLeastAbsolute>(strutRows(drive, {}), options);
 }
 
 TEST(RecursiveLeastAbsolute, GivesTheSameValuesInMetresAndCentimetresByDefault) {
@@ -115,14 +114,18 @@ TEST(RecursiveLeastAbsolute, GivesTheSameValuesInMetresAndCentimetresByDefault) 
 }
 
 TEST(RecursiveLeastAbsolute, DependsOnTheUnitWithoutTheScaledHandOver) {
-  LeastAbsoluteOptions unscaled;
+  RecursiveOptions unscaled;
   unscaled.scale_covariance_at_start = false;
   unscaled.start_rows = 1400;  // shortly before the end, so that the hand-over still shows
   EXPECT_GT((strutEstimateIn(1e3, unscaled) - strutEstimateIn(1.0, unscaled)).norm(), 1e-6);
 }
 
 TEST(RecursiveLeastAbsolute, IgnoresARowOfZerosAndSurvivesRowsHitExactly) {
-  RecursiveLeastAbsolute la(2, {}, {5, SmallDivisor::kAbsolute, 0.0, true});
+  RecursiveOptions options;
+  options.start_rows = 5;
+  options.small_divisor_rule = SmallDivisor::kAbsolute;
+  options.small_divisor = 0.0;
+  RecursiveLeastAbsolute la(2, options);
   for (const RegressionRow& row : randomRows(kTheta, 500, 0.0, 5)) la.update(row);
   EXPECT_LT((la.parameters() - kTheta).norm(), 1e-4);
   EXPECT_TRUE(la.covariance().matrix().allFinite());

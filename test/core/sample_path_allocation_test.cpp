@@ -62,7 +62,7 @@ TEST(SamplePath, IsWatchedForAllocationsOfEigenAndOfTheStandardLibrary) {
 TEST(SamplePath, AllocatesNothingInTheStrutRegressionWithBothEstimators) {
   SuspensionRegression regression({});
   RecursiveLeastSquares ls(2, {});
-  RecursiveLeastAbsolute la(2, {}, {});
+  RecursiveLeastAbsolute la(2, {});
   EXPECT_EQ(allocationsPerDrive([&](const CornerSample& sample) {
               if (const RegressionRow* row = regression.push(sample)) {
                 ls.update(*row);

@@ -45,7 +45,7 @@ TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
     SuspensionMonitor monitor(options);
     SuspensionRegression regression(options.filter(0.02));
     RecursiveLeastSquares ls(kNumStrutParameters, options.recursive(0));
-    RecursiveLeastAbsolute la(kNumStrutParameters, options.recursive(0), options.estimators.least_absolute);
+    RecursiveLeastAbsolute la(kNumStrutParameters, options.recursive(0));
     for (const CornerSample& sample : simulate(drive)) {
       const MonitorReport& report = *monitor.addSample(sample);
       const RegressionRow* row = regression.push(sample);

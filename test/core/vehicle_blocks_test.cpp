@@ -122,9 +122,9 @@ TEST(VehicleBlocks, OrderBetweenStreamsDoesNotMatter) {
           for (std::size_t k = from; k < std::min(from + burst, record.wheel[0].size()); ++k) {
             const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
             if (is_wheel)
-              blocks.push({Sensor::kWheel, i, stamp, {record.wheel[i][k]}});
+              blocks.push({Sensor::kUnsprung, i, stamp, {record.wheel[i][k]}});
             else
-              blocks.push({Sensor::kTop, i, stamp, {record.body[i][k]}});
+              blocks.push({Sensor::kSprung, i, stamp, {record.body[i][k]}});
           }
     ASSERT_NE(blocks.estimate(1), nullptr);
     last.push_back(blocks.estimate(1)->theta);
@@ -143,9 +143,9 @@ TEST(VehicleBlocks, GapsCostBlocksOnly) {
     const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
     for (std::size_t i = 0; i < 2; ++i) {
       if (i == 1 && k > 2000 && k < 2700) continue;  // its top is silent for 7 s
-      blocks.push({Sensor::kTop, i, stamp, {record.body[i][k]}});
+      blocks.push({Sensor::kSprung, i, stamp, {record.body[i][k]}});
     }
-    for (std::size_t i = 0; i < 2; ++i) blocks.push({Sensor::kWheel, i, stamp, {record.wheel[i][k]}});
+    for (std::size_t i = 0; i < 2; ++i) blocks.push({Sensor::kUnsprung, i, stamp, {record.wheel[i][k]}});
   }
   for (std::size_t i = 0; i < 2; ++i) {
     ASSERT_NE(blocks.estimate(i), nullptr);
@@ -162,8 +162,8 @@ TEST(VehicleBlocks, RowsAreThoseOfTheBody) {
   for (std::size_t k = 0; k < record.wheel[0].size(); ++k)
     for (std::size_t i = 0; i < 4; ++i) {
       const Stamp stamp = fromSeconds(static_cast<double>(k) / drive.rate);
-      blocks.push({Sensor::kTop, i, stamp, {record.body[i][k]}});
-      blocks.push({Sensor::kWheel, i, stamp, {record.wheel[i][k]}});
+      blocks.push({Sensor::kSprung, i, stamp, {record.body[i][k]}});
+      blocks.push({Sensor::kUnsprung, i, stamp, {record.wheel[i][k]}});
     }
   BodyRows rows;
   ASSERT_TRUE(blocks.rows(rows));

@@ -182,8 +182,8 @@ TEST(VehicleClaims, SayThatAStrutIsMissing) {
       VehicleBlocks blocks(VehicleChannels::ofAccelerometers(known), 0.01);
       for (std::size_t k = 0; k < record.wheel.front().size(); ++k)
         for (std::size_t i = 0; i < known; ++i) {
-          blocks.push({Sensor::kTop, i, fromSeconds(0.01 * static_cast<double>(k)), {record.body[i][k]}});
-          blocks.push({Sensor::kWheel, i, fromSeconds(0.01 * static_cast<double>(k)), {record.wheel[i][k]}});
+          blocks.push({Sensor::kSprung, i, fromSeconds(0.01 * static_cast<double>(k)), {record.body[i][k]}});
+          blocks.push({Sensor::kUnsprung, i, fromSeconds(0.01 * static_cast<double>(k)), {record.wheel[i][k]}});
         }
       VehicleClaims claims = blocks.claims();
       EXPECT_EQ(claims.find().kind, Kind::kOthers) << made << " " << known;

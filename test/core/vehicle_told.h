@@ -56,8 +56,8 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
       keep(blocks.push(
           {Sensor::kBody, 0, stamp, {0.0, 0.0, kGravity + record.imu[0][k], record.imu[1][k], record.imu[2][k], 0.0}}));
     for (std::size_t i = 0; i < n; ++i) {
-      if (channels.struts[i].sprung) keep(blocks.push({Sensor::kTop, i, stamp, {kGravity + record.body[i][k]}}));
-      keep(blocks.push({Sensor::kWheel, i, stamp + fromSeconds(late), {kGravity + record.wheel[i][k]}}));
+      if (channels.struts[i].sprung) keep(blocks.push({Sensor::kSprung, i, stamp, {kGravity + record.body[i][k]}}));
+      keep(blocks.push({Sensor::kUnsprung, i, stamp + fromSeconds(late), {kGravity + record.wheel[i][k]}}));
     }
     if (drive.pull > 0.0) keep(blocks.push({Sensor::kForce, 0, stamp, {record.pull[k]}}));
     if (!told.gyro_died && blocks.hasDeadGyro()) told.gyro_died = static_cast<double>(k) / drive.rate;
@@ -66,7 +66,7 @@ inline Told tell(const vehicle_drive::Vehicle& vehicle, const vehicle_drive::Dri
   VehicleClaims claims = blocks.claims();
   told.mistake = claims.find();
   told.model_errors = claims.modelErrors();
-  if (BodyRows rows; blocks.rows(rows)) told.body = BodyFit(n, channels.places()).fit(rows, blocks.rowsOfHalves());
+  if (BodyRows rows; blocks.rows(rows)) told.body = fitRigidBody(rows, channels.places(), blocks.rowsOfHalves());
   return told;
 }
 

@@ -70,12 +70,6 @@ double HorizonIntegral::update(const DelayLine& signal) {
   return period_ * (sum_ + correction - ends_.at(intervals_));
 }
 
-void HorizonIntegral::reset() {
-  ends_.reset();
-  sum_ = fresh_ = 0.0;
-  until_refresh_ = intervals_;
-}
-
 LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative)
     : order_(order), horizon_(options.horizon_samples), lateness_(HorizonIntegral::lateness(options.rule)) {
   if (order < 1) refuse("filter order n", order, "", "at least 1");
@@ -88,11 +82,6 @@ LinearIntegralFilter::LinearIntegralFilter(int order, const IntegralFilterOption
     const int for_differences = (order - i) * (horizon_ + lateness_) + 1;
     lines_.emplace_back(i < num_integrals ? std::max(for_differences, integral.requiredHistory()) : for_differences);
   }
-}
-
-void LinearIntegralFilter::push(double sample) {
-  lines_.front().push(sample);
-  for (std::size_t i = 0; i < integrals_.size(); ++i) lines_[i + 1].push(integrals_[i].update(lines_[i]));
 }
 
 double LinearIntegralFilter::output(int derivative) const {
@@ -109,11 +98,6 @@ double LinearIntegralFilter::output(int derivative) const {
     lag += horizon_;
   }
   return result;
-}
-
-void LinearIntegralFilter::reset() {
-  for (HorizonIntegral& integral : integrals_) integral.reset();
-  for (DelayLine& line : lines_) line.reset();
 }
 
 }  // namespace suspension_health_monitor

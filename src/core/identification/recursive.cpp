@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/identification/recursive_covariance.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
 #include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
-#include "suspension_health_monitor/internal/math/running_means.h"
 
 namespace suspension_health_monitor {
 
@@ -37,8 +35,6 @@ UdCovariance::UdCovariance(const UdCovariance& before, const std::vector<ColumnO
   }
 }
 
-void UdCovariance::release(int i, double variance) { diagonal_[i] = ceiling_[i] = variance; }
-
 const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, double noise, double forgetting_factor) {
   double alpha = noise;
   for (Eigen::Index j = 0; j < diagonal_.size(); ++j) {
@@ -58,37 +54,21 @@ const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, do
   return gain_;
 }
 
-void UdCovariance::scale(double factor) {
-  diagonal_ *= factor;
-  ceiling_ *= factor;
-}
-
-Eigen::MatrixXd UdCovariance::matrix() const { return upper_ * diagonal_.asDiagonal() * upper_.transpose(); }
-
-void RecursiveOptions::validate() const {
-  requireAboveZero("forgetting_factor", forgetting_factor, "", 1.0);
-  requireAboveZero("initial_variance", initial_variance, "");
-  if (correlated_rows < 0) refuse("correlated_rows", correlated_rows, "", "at least 0");
-}
-
 RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOptions& options)
     : options_(options),
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
       scatter_(num_parameters, std::max(0, options.correlated_rows)),
       means_(options.forgetting_factor) {
-  options.validate();
+  requireAboveZero("forgetting_factor", options.forgetting_factor, "", 1.0);
+  requireAboveZero("initial_variance", options.initial_variance, "");
+  if (options.correlated_rows < 0) refuse("correlated_rows", options.correlated_rows, "", "at least 0");
 }
 
 double RecursiveEstimator::observe(const RegressionRow& row) {
   const double innovation = row.output - row.regressor.dot(theta_);
   means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
   return innovation;
-}
-
-void RecursiveEstimator::setForgettingFactor(double forgetting_factor) {
-  options_.forgetting_factor = forgetting_factor;
-  means_.setForgettingFactor(forgetting_factor);
 }
 
 void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
@@ -128,10 +108,6 @@ double RecursiveLeastSquares::update(const RegressionRow& row) {
   return innovation;
 }
 
-RecursiveLeastAbsolute::RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive,
-                                               const LeastAbsoluteOptions& options)
-    : RecursiveEstimator(num_parameters, recursive), absolute_(options), weights_(recursive.forgetting_factor) {}
-
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
   drift();
@@ -140,17 +116,16 @@ double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (!leads()) {
     releaseExcited(row, meanSquareResidual(), 1.0);
     correct(row, innovation, 1.0);
-    if (++rows_ == absolute_.start_rows) takeOver();
+    if (++rows_ == options_.start_rows) takeOver();
   } else {
-    releaseExcited(row, meanAbsoluteResidual(), absolute_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
+    releaseExcited(row, meanAbsoluteResidual(), options_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
     correct(row, innovation, weight);
   }
   return innovation;
 }
 
 double RecursiveLeastAbsolute::weigh(double innovation) {
-  const double smallest =
-      smallestDivisor(absolute_.small_divisor_rule, absolute_.small_divisor, meanAbsoluteResidual());
+  const double smallest = smallestDivisor(options_.small_divisor_rule, options_.small_divisor, meanAbsoluteResidual());
   const double weight = 1.0 / std::max(std::abs(innovation), smallest);
   if (!std::isfinite(weight)) return weight;
   const double score = weight * innovation;
@@ -162,40 +137,14 @@ double RecursiveLeastAbsolute::weigh(double innovation) {
 void RecursiveLeastAbsolute::beginAgain(const RecursiveLeastSquares& least_squares) {
   static_cast<RecursiveEstimator&>(*this) = least_squares;
   weights_ = RunningMeans<kNumMeans>(forgettingFactor());
-  rows_ = absolute_.start_rows;
+  rows_ = options_.start_rows;
   takeOver();
 }
 
 void RecursiveLeastAbsolute::takeOver() {
   // R(k) of LA sums phi phi' / |epsilon|, that of LS phi phi': without the factor the start depends on the unit of psi.
-  if (absolute_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
+  if (options_.scale_covariance_at_start && meanAbsoluteResidual() > 0.0) covariance_.scale(meanAbsoluteResidual());
   scatter_.interrupt();  // rows are weighted from now on
-}
-
-RunningComparison::RunningComparison(double forgetting_factor)
-    : means_(forgetting_factor),
-      residual_(forgetting_factor),
-      measured_(forgetting_factor),
-      worse_(forgetting_factor),
-      half_weight_(0.5 / (1.0 - std::min(forgetting_factor, 1.0 - 1e-12))) {}
-
-void RunningComparison::add(double measured, double predicted) {
-  const double residual = measured - predicted;
-  means_.add({residual, residual * residual, measured, measured * measured});
-  residual_.add(residual);
-  measured_.add(measured);
-  worse_.add(std::abs(residual - residual_.mean()) > std::abs(measured - measured_.mean()) ? 1.0 : 0.0);
-}
-
-double RunningComparison::deviation(Mean value, Mean square) const {
-  return std::sqrt(std::max(0.0, means_.mean(square) - means_.mean(value) * means_.mean(value)));
-}
-
-double RunningComparison::rmse() const { return deviation(kResidual, kSquareResidual); }
-
-double RunningComparison::fitPercent() const {
-  const double spread = deviation(kMeasured, kSquareMeasured);
-  return spread > 0.0 ? 100.0 * (1.0 - rmse() / spread) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace suspension_health_monitor

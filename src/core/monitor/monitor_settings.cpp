@@ -37,9 +37,13 @@ MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions
   estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
   estimators.drifting_offset = false;
   estimators.forgets_unexcited = true;
-  estimators.recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
-  estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
-  estimators.least_absolute = {150, SmallDivisor::kAbsolute, 1e-8, false};  // k0, eps_min: section 3.2
+  RecursiveOptions& recursive = estimators.recursive;
+  recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
+  recursive.initial_variance_rule = InitialVariance::kAbsolute;
+  recursive.start_rows = 150;  // k0, and eps_min: section 3.2
+  recursive.small_divisor_rule = SmallDivisor::kAbsolute;
+  recursive.small_divisor = 1e-8;
+  recursive.scale_covariance_at_start = false;
 }
 
 void MonitorSettings::validate() const {

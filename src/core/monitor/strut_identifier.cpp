@@ -52,8 +52,7 @@ StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
       forgets_unexcited_(options.estimators.forgets_unexcited),
       regression_(filter_, 0, options.estimators.drifting_offset),
       least_squares_(kNumStrutParameters + offset_columns_, recursiveOf(options, filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters + offset_columns_, recursiveOf(options, filter_.horizon_samples),
-                      options.estimators.least_absolute),
+      least_absolute_(kNumStrutParameters + offset_columns_, recursiveOf(options, filter_.horizon_samples)),
       silent_rows_(filter_.horizon_samples),
       rows_(std::numeric_limits<double>::infinity()) {  // the plain columns are there from the first row on
   setForgetting(options);

@@ -38,7 +38,7 @@ TyreTracker::TyreTracker(const MonitorSettings& options)
       silent_rows_(horizon_samples_),
       regression_(options.tyreFilter(*options.sample_period)),
       least_squares_(kNumTyreParameters, options.recursive(2 * horizon_samples_)),
-      least_absolute_(kNumTyreParameters, options.recursive(2 * horizon_samples_), options.estimators.least_absolute) {}
+      least_absolute_(kNumTyreParameters, options.recursive(2 * horizon_samples_)) {}
 
 const TyreReport& TyreTracker::add(const CornerSample& sample, const std::optional<double>& road_acceleration) {
   report_.has_row = false;

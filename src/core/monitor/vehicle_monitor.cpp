@@ -82,7 +82,7 @@ void VehicleMonitor::setUp(const VehicleStreams::Sensor& imu, std::string_view u
 
 void VehicleMonitor::addReading(const VehicleChannels& vehicle, const VehicleReading& reading) {
   if (is_alone_) {
-    const Side side = reading.sensor == VehicleReading::Sensor::kWheel ? Side::kUnsprung : Side::kSprung;
+    const Side side = reading.sensor == VehicleReading::Sensor::kUnsprung ? Side::kUnsprung : Side::kSprung;
     return struts_.front().addReading(side, reading.stamp, reading.values[0]);
   }
   if (!std::all_of(reading.values.begin(), reading.values.end(), isUsable)) return;
@@ -185,7 +185,7 @@ void VehicleMonitor::fitRows() {
   claims_.reset();
   BodyRows rows;
   if (!blocks_->rows(rows)) return;
-  body_ = BodyFit(numStruts(), blocks_->vehicle().places()).fit(rows, blocks_->rowsOfHalves());
+  body_ = fitRigidBody(rows, blocks_->vehicle().places(), blocks_->rowsOfHalves());
 }
 
 void VehicleMonitor::fitBodyIfDue() {

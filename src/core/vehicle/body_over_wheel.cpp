@@ -1,11 +1,10 @@
-#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -69,93 +68,70 @@ struct Response {
   double explained = 0.0, delay = 0.0;
 };
 
-class Pairing {
- public:
-  Pairing(const ImuSignals& signals, const std::vector<double>& rates)
-      : signals_(signals), rates_(rates), shake_(signals.imus, 0.0) {
-    for (std::size_t k = 0; k < signals.spectra.size(); ++k)
-      if (signals.s[k].imag() >= 2.0 * M_PI * kShake)
-        for (std::size_t i = 0; i < shake_.size(); ++i) shake_[i] += signals.spectra[k](i, i).real();
-  }
+/// The slowest IMU ends the band.
+Index binsOf(const ImuSignals& signals, std::size_t signal, const std::vector<std::size_t>& wheels) {
+  double rate = signals.rates[signals.owners[signal]];
+  for (const std::size_t wheel : wheels) rate = std::min(rate, signals.rates[wheel]);
+  const int last = std::min(signals.band.last, static_cast<int>(kBlockTuning.usable * signals.band.length * rate));
+  return std::max(1, last - signals.band.first + 1);
+}
 
-  const ImuSignals& signals() const { return signals_; }
-  /// An IMU that was silent shakes nothing, and is shaken by nothing.
-  bool shakesMore(std::size_t wheel, std::size_t body) const {
-    return shake_[body] > 0.0 && shake_[wheel] > kClearlyMore * shake_[body];
+LinearFit fitWheels(const ImuSignals& signals, std::size_t signal, const std::vector<std::size_t>& wheels,
+                    double delay) {
+  const Eigen::ArrayXcd &s = signals.s, late = (s * delay).exp();
+  std::vector<Term> terms{{signal, -late / s}, {signal, -late / s.square()}};
+  for (const std::size_t wheel : wheels) {
+    terms.push_back({wheel, s.inverse()});
+    terms.push_back({wheel, s.square().inverse()});
   }
+  return fitSignal(signals.spectra, {signal, late}, terms, binsOf(signals, signal, wheels));
+}
 
-  /// @return how a signal moves over wheels.
-  Response respond(std::size_t signal, const std::vector<std::size_t>& wheels) const {
-    Response best{Eigen::ArrayXd::Zero(signals_.imus), Eigen::ArrayXd::Zero(signals_.imus)};
-    if (wheels.empty()) return best;
-    LinearFit nearest;
-    for (double tried = -kFarthestDelay; tried < kFarthestDelay + kDelayStep / 2.0; tried += kDelayStep) {
-      const LinearFit found = fit(signal, wheels, tried);
-      if (!(found.unexplained < nearest.unexplained)) continue;
-      nearest = found;
-      best.delay = tried;
-    }
-    if (nearest.parameters.size() == 0) return best;  // a signal that is 0
-    const double alone = fit(signal, {}, best.delay).unexplained;
-    best.explained = 1.0 - nearest.unexplained / alone;
-    for (std::size_t j = 0; j < wheels.size(); ++j) {
-      best.damping[wheels[j]] = nearest.parameters[2 + 2 * j];
-      std::vector<std::size_t> others = wheels;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
-      best.worth[wheels[j]] = (fit(signal, others, best.delay).unexplained - nearest.unexplained) / alone;
-    }
-    return best;
+/// @return how a signal moves over wheels.
+Response respond(const ImuSignals& signals, std::size_t signal, const std::vector<std::size_t>& wheels) {
+  Response best{Eigen::ArrayXd::Zero(signals.imus()), Eigen::ArrayXd::Zero(signals.imus())};
+  if (wheels.empty()) return best;
+  LinearFit nearest;
+  for (double tried = -kFarthestDelay; tried < kFarthestDelay + kDelayStep / 2.0; tried += kDelayStep) {
+    const LinearFit found = fitWheels(signals, signal, wheels, tried);
+    if (!(found.unexplained < nearest.unexplained)) continue;
+    nearest = found;
+    best.delay = tried;
   }
-
-  /// The slowest IMU ends the band.
-  Index bins(std::size_t signal, const std::vector<std::size_t>& wheels) const {
-    double rate = rates_[signals_.owners[signal]];
-    for (const std::size_t wheel : wheels) rate = std::min(rate, rates_[wheel]);
-    const int last = std::min(signals_.band.last, static_cast<int>(kBlockTuning.usable * signals_.band.length * rate));
-    return std::max(1, last - signals_.band.first + 1);
+  if (nearest.parameters.size() == 0) return best;  // a signal that is 0
+  const double alone = fitWheels(signals, signal, {}, best.delay).unexplained;
+  best.explained = 1.0 - nearest.unexplained / alone;
+  for (std::size_t j = 0; j < wheels.size(); ++j) {
+    best.damping[wheels[j]] = nearest.parameters[2 + 2 * j];
+    std::vector<std::size_t> others = wheels;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(j));
+    best.worth[wheels[j]] = (fitWheels(signals, signal, others, best.delay).unexplained - nearest.unexplained) / alone;
   }
-
- private:
-  LinearFit fit(std::size_t signal, const std::vector<std::size_t>& wheels, double delay) const {
-    const Eigen::ArrayXcd &s = signals_.s, late = (s * delay).exp();
-    std::vector<Term> terms{{signal, -late / s}, {signal, -late / s.square()}};
-    for (const std::size_t wheel : wheels) {
-      terms.push_back({wheel, s.inverse()});
-      terms.push_back({wheel, s.square().inverse()});
-    }
-    return fitSignal(signals_.spectra, {signal, late}, terms, bins(signal, wheels));
-  }
-
-  const ImuSignals& signals_;
-  std::vector<double> rates_;
-  std::vector<double> shake_;  // power above kShake
-};
+  return best;
+}
 
 /// @return the responses of the signals of bodies; nothing of the others.
-std::vector<std::optional<Response>> findBodies(const Pairing& pairing) {
-  const ImuSignals& signals = pairing.signals();
+std::vector<std::optional<Response>> findBodies(const ImuSignals& signals) {
+  std::vector<double> shake(signals.imus(), 0.0);  // power above kShake
+  for (std::size_t k = 0; k < signals.spectra.size(); ++k)
+    if (signals.s[k].imag() >= 2.0 * M_PI * kShake)
+      for (std::size_t i = 0; i < shake.size(); ++i) shake[i] += signals.spectra[k](i, i).real();
   std::vector<std::optional<Response>> found(signals.owners.size());
-  const auto respond = [&](std::size_t signal, bool to_wheels_alone) {
+  const auto respond_to = [&](std::size_t signal, bool to_wheels_alone) {
+    // An IMU that was silent shakes nothing, and is shaken by nothing.
+    const double own = shake[signals.owners[signal]];
     std::vector<std::size_t> wheels;
-    for (std::size_t j = 0; j < signals.imus; ++j)
-      if (pairing.shakesMore(j, signals.owners[signal]) && !(to_wheels_alone && found[j])) wheels.push_back(j);
-    std::optional<Response> response = pairing.respond(signal, wheels);
+    for (std::size_t j = 0; j < shake.size(); ++j)
+      if (own > 0.0 && shake[j] > kClearlyMore * own && !(to_wheels_alone && found[j])) wheels.push_back(j);
+    std::optional<Response> response = respond(signals, signal, wheels);
     if (!(response->explained > kMajority)) response.reset();
     return response;
   };
-  for (std::size_t i = 0; i < signals.imus; ++i) found[i] = respond(i, false);
+  for (std::size_t i = 0; i < signals.imus(); ++i) found[i] = respond_to(i, false);
   auto bodies = found;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (found[signals.owners[i]]) bodies[i] = respond(i, true);
+    if (found[signals.owners[i]]) bodies[i] = respond_to(i, true);
   return bodies;
-}
-
-/// @return b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
-Eigen::MatrixXd pushOf(const std::vector<std::optional<Response>>& bodies, std::size_t imus) {
-  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(bodies.size(), imus);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i]) push.row(i) = (bodies[i]->worth > kWorthHaving).select(bodies[i]->damping, 0.0).matrix().transpose();
-  return push;
 }
 
 /// @return the signal of the body over a wheel: of the IMUs the one that it pushes hardest, as far as wheels explain
@@ -165,11 +141,11 @@ std::optional<std::size_t> bodyOver(std::size_t wheel, const Eigen::MatrixXd& pu
   const auto may_serve_several = [&](std::size_t body) {
     return std::count(signals.owners.begin(), signals.owners.end(), body) > 1;
   };
-  const Eigen::ArrayXXd size = push.topRows(signals.imus).cwiseAbs();
+  const Eigen::ArrayXXd size = push.topRows(signals.imus()).cwiseAbs();
   const Eigen::ArrayXXd share = size.rowwise() / size.colwise().maxCoeff().max(kTiny);
   std::optional<std::size_t> best;
   double hardest = 0.0;
-  for (std::size_t body = 0; body < signals.imus; ++body) {
+  for (std::size_t body = 0; body < signals.imus(); ++body) {
     if (size(body, wheel) == 0.0) continue;
     // An IMU that serves one wheel alone is that wheel's more than any other's.
     std::size_t its_own = 0;
@@ -179,15 +155,14 @@ std::optional<std::size_t> bodyOver(std::size_t wheel, const Eigen::MatrixXd& pu
     best = body;
     hardest = here;
   }
-  for (std::size_t turn = signals.imus; turn < bodies.size() && !best; ++turn)
+  for (std::size_t turn = signals.imus(); turn < bodies.size() && !best; ++turn)
     if (push(turn, wheel) != 0.0) best = turn;
   return best;
 }
 
 /// Fits b1 and b0 of a strut to the motion of its own top by the travel of all struts.
 /// @return false: it is no damped spring.
-bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairing, BodyOverWheel& pair) {
-  const ImuSignals& given = pairing.signals();
+bool describeStrut(const std::vector<BodyOverWheel>& pairs, const ImuSignals& given, BodyOverWheel& pair) {
   const std::size_t imus = given.owners.size();
   // The IMUs, then w'' - z'' of every strut.
   Eigen::MatrixXcd signals = Eigen::MatrixXcd::Identity(imus + pairs.size(), imus);
@@ -210,7 +185,7 @@ bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairi
     terms.push_back({imus + j, s.inverse()});
     terms.push_back({imus + j, s.square().inverse()});
   }
-  const LinearFit found = fitSignal(all, {pair.body, late}, terms, pairing.bins(pair.body, wheels));
+  const LinearFit found = fitSignal(all, {pair.body, late}, terms, binsOf(given, pair.body, wheels));
   pair.delay += found.parameters[0];
   pair.damping_to_mass = found.parameters[own];
   pair.stiffness_to_mass = found.parameters[own + 1];
@@ -220,13 +195,15 @@ bool describeStrut(const std::vector<BodyOverWheel>& pairs, const Pairing& pairi
 
 }  // namespace
 
-std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const std::vector<double>& rates) {
-  const Pairing pairing(signals, rates);
-  const std::vector<std::optional<Response>> bodies = findBodies(pairing);
-  const Eigen::MatrixXd push = pushOf(bodies, signals.imus);
+std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals) {
+  const std::vector<std::optional<Response>> bodies = findBodies(signals);
+  // b1 of each wheel (columns) in each signal (rows), where it is worth having, else 0 [1/s].
+  Eigen::MatrixXd push = Eigen::MatrixXd::Zero(bodies.size(), signals.imus());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i]) push.row(i) = (bodies[i]->worth > kWorthHaving).select(bodies[i]->damping, 0.0).matrix().transpose();
   std::vector<BodyOverWheel> all, pairs;
-  std::vector<std::size_t> served(signals.imus, 0);
-  for (std::size_t wheel = 0; wheel < signals.imus; ++wheel) {
+  std::vector<std::size_t> served(signals.imus(), 0);
+  for (std::size_t wheel = 0; wheel < signals.imus(); ++wheel) {
     const std::optional<std::size_t> signal = bodyOver(wheel, push, signals, bodies);
     if (!signal) continue;
     const std::size_t body = signals.owners[*signal];
@@ -238,7 +215,7 @@ std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals, const
   }
   for (BodyOverWheel pair : all) {
     pair.is_own = served[pair.body] == 1;
-    if (!pair.is_own || describeStrut(all, pairing, pair)) pairs.push_back(pair);
+    if (!pair.is_own || describeStrut(all, signals, pair)) pairs.push_back(pair);
   }
   return pairs;
 }

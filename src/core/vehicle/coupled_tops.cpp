@@ -1,6 +1,8 @@
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 namespace suspension_health_monitor {
 
@@ -27,19 +29,15 @@ VehicleSpectra::VehicleSpectra(const BlockBand& band, const VehicleChannels& veh
 void VehicleSpectra::push(const VehicleReading& reading, double time, double direction) {
   using Sensor = VehicleReading::Sensor;
   const auto& values = reading.values;
-  if (reading.sensor == Sensor::kTop) return streams_[top_of_[reading.place]].push(time, values.data(), phases_);
+  if (reading.sensor == Sensor::kSprung) return streams_[top_of_[reading.place]].push(time, values.data(), phases_);
   if (reading.sensor == Sensor::kForce) return streams_[forces_ + reading.place].push(time, values.data(), phases_);
-  if (reading.sensor == Sensor::kWheel) {
+  if (reading.sensor == Sensor::kUnsprung) {
     const double of_wheel[] = {values[0], direction};
     return streams_[reading.place].push(time, of_wheel, phases_);
   }
   const double wx = values[3], wy = values[4], wz = values[5];
   const double of_body[kBodyChannels] = {values[2], wx, wy, wz * wx, wz * wy, wx * wx + wy * wy};  // as BodyChannel
   streams_[body_].push(time, of_body, phases_);
-}
-
-void VehicleSpectra::restart() {
-  for (FourierIntegrals& stream : streams_) stream.restart();
 }
 
 bool VehicleSpectra::isPassed(long half) const {
@@ -76,47 +74,47 @@ void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
 }
 
 void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block) {
-  struct Part {
-    BodyChannel channel;
-    std::size_t derivatives;
-    double factor;
-  };
-  const Part parts[] = {{kAz, 0, 1.0},
-                        {kWx, 1, position.y()},
-                        {kWy, 1, -position.x()},
-                        {kWzWx, 0, position.x()},
-                        {kWzWy, 0, position.y()},
-                        {kWx2Wy2, 0, -position.z()}};
+  const std::tuple<BodyChannel, std::size_t, double> parts[] = {{kAz, 0, 1.0},
+                                                                {kWx, 1, position.y()},
+                                                                {kWy, 1, -position.x()},
+                                                                {kWzWx, 0, position.x()},
+                                                                {kWzWy, 0, position.y()},
+                                                                {kWx2Wy2, 0, -position.z()}};
   block.body.setZero();
-  for (const Part& part : parts) {
-    streams_[body_].sumHalves(half, part.channel, channel_);
+  for (const auto& [channel, derivatives, factor] : parts) {
+    streams_[body_].sumHalves(half, channel, channel_);
     for (std::size_t p = 0; p < 3; ++p) {
-      modulation_.apply(p + part.derivatives, channel_, derivative_);
-      block.body.col(p) += part.factor * derivative_;
+      modulation_.apply(p + derivatives, channel_, derivative_);
+      block.body.col(p) += factor * derivative_;
     }
   }
 }
 
-std::array<double, 3> VehicleSpectra::bodyPowers(long half) {
+bool VehicleSpectra::gyroIsDeadIn(long half) {
+  if (vehicle_.numTopsOfBody() == 0) return false;
   std::array<double, 3> powers;
   for (const BodyChannel channel : {kAz, kWx, kWy}) {
     streams_[body_].sumHalves(half, channel, channel_);
     modulation_.apply(0, channel_, derivative_);
     powers[channel] = derivative_.abs2().sum();
   }
-  return powers;
+  const auto is_low = [&](std::size_t axis) { return powers[axis] < square(kSmall) * body_power_.mean(axis); };
+  if (body_power_.weight() >= kFewestForScatter && powers[0] > kSmall * body_power_.mean(0))
+    has_dead_gyro_ = is_low(1) || is_low(2);
+  if (!has_dead_gyro_) body_power_.add(powers);
+  return has_dead_gyro_;
 }
 
 CoupledTops::CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces)
     : s_(Modulation(band).s()), lu_(struts) {
-  rows_ = {Eigen::MatrixXd::Zero(struts, struts), Eigen::MatrixXd::Zero(struts, struts),
-           Eigen::MatrixXd::Zero(struts, forces)};
+  rows_.rate = rows_.travel = Eigen::MatrixXd::Zero(struts, struts);
+  rows_.force.setZero(struts, forces);
   wheels_.setZero(s_.size(), struts);
   travel_ = wheels_;
   forces_.setZero(s_.size(), forces);
 }
 
-void CoupledTops::setRows(const TopRows& rows) {
+void CoupledTops::setRows(const BodyRows& rows) {
   rows_ = rows;
   const auto n = wheels_.cols();
   follows_.resize(s_.size());

@@ -3,24 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "suspension_health_monitor/internal/vehicle/tuning.h"
-
 namespace suspension_health_monitor {
-namespace {
-
-// The natural period of the slowest strut [samples], even.
-int naturalPeriod(const std::vector<StrutModel>& models, double period) {
-  double slowest = 0.0;
-  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
-  return 2 *
-         std::max(1, static_cast<int>(std::lround(std::min(slowest, kVehicleTuning.longest_period) / (2.0 * period))));
-}
-
-}  // namespace
-
-int TravelObserver::delayOf(int natural_period) {
-  return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
-}
 
 TravelObserver::TravelObserver(double period, double stiffness_to_mass, int natural_period)
     : period_(period),
@@ -53,10 +36,6 @@ void TravelObserver::push(double relative_acceleration) {
   }
 }
 
-double TravelObserver::fast(std::size_t which) const {
-  return recent_[which].front() - slow_[which].output(0) / horizon_;
-}
-
 void TravelObserver::startNewSeries() {
   input_.reset();
   age_ = 0.0;
@@ -67,16 +46,17 @@ void TravelObserver::startNewSeries() {
 
 Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<StrutModel>& models,
                      const std::vector<double>& low_pass)
-    : period_(period),
-      taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass),
-      force_means_(rows.force.cols(), LimitedMean(std::exp(-period / kVehicleTuning.mean_memory))) {
+    : period_(period), taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass) {
   setRows(rows);
-  const int natural_period = naturalPeriod(models, period);
+  double slowest = 0.0;  // natural period [s], below in samples, even
+  for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
+  slowest = std::min(slowest, kVehicleTuning.longest_period);
+  const int natural_period = 2 * std::max(1, static_cast<int>(std::lround(slowest / (2.0 * period))));
+  const double forgetting = std::exp(-period / kVehicleTuning.mean_memory);
+  force_means_.assign(rows.force.cols(), LimitedMean(forgetting));
   for (const StrutModel& model : models)
-    struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period),
-                       LimitedMean(std::exp(-period / kVehicleTuning.mean_memory)),
-                       RunningMean(std::exp(-period / kVehicleTuning.mean_memory)),
-                       boost::circular_buffer<Observed>(taps_.size())});
+    struts_.push_back({model, TravelObserver(period, model.stiffness_to_mass, natural_period), LimitedMean(forgetting),
+                       RunningMean(forgetting), boost::circular_buffer<Observed>(taps_.size())});
   recent_.set_capacity(TravelObserver::delayOf(natural_period) + taps_.size() / 2 + 1);
 }
 
@@ -112,7 +92,9 @@ const VehicleSample* Decoupler::push(const VehicleSample& sample) {
   Eigen::Matrix<double, Eigen::Dynamic, kParts + 1, Eigen::ColMajor, kMostStruts> parts(out_.sprung.size(), kParts + 1);
   StrutVector stiffness(out_.sprung.size());
   for (std::size_t j = 0; j < struts_.size(); ++j) {
-    parts.row(j) = filtered(struts_[j]).transpose();
+    Observed filtered = Observed::Zero();
+    for (std::size_t k = 0; k < taps_.size(); ++k) filtered += taps_[k] * struts_[j].observed[k];
+    parts.row(j) = filtered.transpose();
     stiffness[j] = struts_[j].model.stiffness_to_mass;
   }
   const StrutVector slow = out_.unsprung - out_.sprung - parts.col(kParts);
@@ -137,12 +119,6 @@ void Decoupler::follow(Strut& strut, double body_acceleration) const {
   strut.laws.add(law);
   strut.observed.push_back({damper, strut.model.stiffness_to_mass * strut.travel.travel(), law - strut.laws.mean(),
                             strut.travel.acceleration()});
-}
-
-Decoupler::Observed Decoupler::filtered(const Strut& strut) const {
-  Observed sum = Observed::Zero();
-  for (std::size_t k = 0; k < taps_.size(); ++k) sum += taps_[k] * strut.observed[k];
-  return sum;
 }
 
 void Decoupler::startNewSeries() {

@@ -5,9 +5,6 @@
 #include <array>
 #include <cstddef>
 
-#include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/vehicle/tuning.h"
-
 namespace suspension_health_monitor {
 namespace {
 
@@ -37,21 +34,18 @@ BodyLevel::BodyLevel(const Readings& accelerations) {
   std::array<Eigen::Vector3d, kVehicleTuning.fewest_parts> parts;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   for (std::ptrdiff_t i = 0; i < kVehicleTuning.fewest_parts; ++i) {
-    Eigen::Vector3d& part = parts[i];
-    part = medianOf(begin + (end - begin) * i / kVehicleTuning.fewest_parts,
-                    begin + (end - begin) * (i + 1) / kVehicleTuning.fewest_parts);
-    gravity += part / kVehicleTuning.fewest_parts;
+    parts[i] = medianOf(begin + (end - begin) * i / kVehicleTuning.fewest_parts,
+                        begin + (end - begin) * (i + 1) / kVehicleTuning.fewest_parts);
+    gravity += parts[i] / kVehicleTuning.fewest_parts;
   }
   if (!isGravity(gravity.norm())) return;
-  if (std::abs(gravity.norm() - kStandardGravity) > kLargestOffset) gain_ = gravity.norm() / kStandardGravity;
-  lean_ = angleBetween(gravity, Eigen::Vector3d::UnitZ());
-  is_steady_ = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
+  if (std::abs(gravity.norm() - kStandardGravity) > kLargestOffset) gain = gravity.norm() / kStandardGravity;
+  lean = angleBetween(gravity, Eigen::Vector3d::UnitZ());
+  is_steady = std::all_of(parts.begin(), parts.end(), [&](const Eigen::Vector3d& part) {
     return angleBetween(part, gravity) <= 0.5 * kVehicleTuning.largest_lean;
   });
-  if (isTurned()) mount_ = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  if (isTurned()) mount = Eigen::Quaterniond::FromTwoVectors(gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
-
-bool BodyLevel::isTurned() const { return lean_ > kVehicleTuning.largest_lean; }
 
 bool MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   if (!acceleration.allFinite()) return false;
@@ -68,8 +62,6 @@ bool MountClaim::add(Stamp stamp, const Eigen::Vector3d& acceleration) {
   return true;
 }
 
-bool MountClaim::isKnown() const { return parts_ >= kVehicleTuning.fewest_parts; }
-
 std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) const {
   Finding found;
   found.size = mean_.norm();
@@ -81,21 +73,8 @@ std::optional<MountClaim::Finding> MountClaim::find(const Eigen::Vector3d& up) c
   return found;
 }
 
-// From what rounds to kVehicleTuning.largest_lean on.
-bool MountClaim::Finding::isLeaning() const {
-  return lean > kVehicleTuning.largest_lean - 0.5 / 180.0 * M_PI + kProven * lean_stddev;
-}
-
-bool MountClaim::Finding::isOnAnotherAxis() const { return lean > kVehicleTuning.other_axis; }
-
 std::string_view MountClaim::Finding::name() const {
   return std::array<std::string_view, 6>{"x", "y", "z", "-x", "-y", "-z"}[axis + (is_negative ? 3 : 0)];
 }
-
-bool MountClaim::Finding::leansAs(const Finding& other) const {
-  return std::abs(lean - other.lean) < kVehicleTuning.largest_lean && lean < kVehicleTuning.other_axis;
-}
-
-bool MountClaim::Finding::isWrongSize() const { return std::abs(size - kStandardGravity) > kLargestOffset; }
 
 }  // namespace suspension_health_monitor

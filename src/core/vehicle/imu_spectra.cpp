@@ -34,19 +34,13 @@ void ImuSpectra::push(std::size_t imu, Stamp stamp, const SixAxes& reading) {
   if ((stream.last && stamp <= *stream.last) || stamp < *origin_ || !reading.allFinite()) return;
   stream.last = stamp;
   stream.integrals.push(toSeconds(stamp - *origin_), reading.data(), phases_);
-  long slowest = stream.integrals.openHalf(), fastest = 0;
-  for (const Stream& each : streams_) {
-    slowest = std::min(slowest, each.integrals.openHalf());
-    fastest = std::max(fastest, each.integrals.openHalf());
-  }
+  const auto [slowest, fastest] = std::minmax_element(streams_.begin(), streams_.end(), isBehind);
   // An IMU that is silent holds the others up only as long as their half blocks are kept.
-  takeBlocks(std::max(slowest, fastest - FourierIntegrals::kHalves + 2));
+  takeBlocks(std::max(slowest->integrals.openHalf(), fastest->integrals.openHalf() - FourierIntegrals::kHalves + 2));
 }
 
 void ImuSpectra::restart() {
-  long end = 0;
-  for (const Stream& each : streams_) end = std::max(end, each.integrals.openHalf());
-  takeBlocks(end);
+  takeBlocks(std::max_element(streams_.begin(), streams_.end(), isBehind)->integrals.openHalf());
   for (Stream& each : streams_) {
     each.integrals.restart();
     each.last.reset();
@@ -90,13 +84,14 @@ double ImuSpectra::rms(std::size_t imu, const Eigen::Vector3d& direction, double
   return std::sqrt(2.0 * sum / std::max(1.0, blocks(imu)) / 0.375) / band_.length;
 }
 
-ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const {
-  ImuSignals signals{band_, modulation_.s()};
-  signals.imus = streams_.size();
-  for (std::size_t i = 0; i < signals.imus; ++i) signals.owners.push_back(i);
-  for (std::size_t i = 0; i < signals.imus; ++i)
+ImuSignals ImuSpectra::along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro,
+                             const std::vector<double>& rates) const {
+  ImuSignals signals{band_, rates, modulation_.s()};
+  const std::size_t imus = streams_.size();
+  for (std::size_t i = 0; i < imus; ++i) signals.owners.push_back(i);
+  for (std::size_t i = 0; i < imus; ++i)
     if (has_gyro[i]) signals.owners.insert(signals.owners.end(), 3, i);
-  const std::size_t size = signals.owners.size(), imus = signals.imus;
+  const std::size_t size = signals.owners.size();
   Eigen::MatrixXcd directions = Eigen::MatrixXcd::Zero(size, kAxes * imus);
   Eigen::MatrixXd counts(size, size);
   for (std::size_t i = 0; i < size; ++i) {

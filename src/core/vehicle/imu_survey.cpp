@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/vehicle/imu_survey.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -44,10 +43,6 @@ void ImuSurvey::follow(Stamp stamp) {
   jitter_.add(square(spacing / period_.mean() - periods));
   lost_ += periods - 1.0;
   if (periods == 1.0) period_.add(spacing);
-}
-
-bool ImuSurvey::isStill() const {
-  return std::all_of(gates_.begin(), gates_.end(), [](const StreamGate& gate) { return gate.isStill(); });
 }
 
 std::optional<MountClaim::Finding> ImuSurvey::gravity() const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <random>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/output_error_fit.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/vehicle/separation.h"
@@ -24,10 +25,8 @@ SensorNoise noiseOfOwnSensors(std::size_t num_struts) {
 
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise) {
   SensorNoise noise;
-  std::size_t num_streams = channels.body_imu ? *channels.body_imu + 6 : 0;
-  for (const VehicleChannels::Strut& strut : channels.struts)
-    num_streams = std::max({num_streams, strut.unsprung + 1, strut.sprung.value_or(0) + 1});
-  for (const std::size_t force : channels.known_forces) num_streams = std::max(num_streams, force + 1);
+  // Streams are numbered without a gap: at most the body's six, two of every strut, the forces and the road.
+  const std::size_t num_streams = 6 + 2 * channels.struts.size() + channels.known_forces.size() + 1;
   const StrutTops still(period, channels);
   const int fill = 2 * still.delay();
   // What follows one wrong reading of a stream.
@@ -190,8 +189,7 @@ void takeSharedNoise(std::vector<StrutDrives>& drives, StrutDrives& noise, doubl
   std::vector<StrutModel> linear;
   for (const StrutModel& model : models) linear.push_back({model.damping_to_mass, model.stiffness_to_mass, {}, {}});
   const std::vector<Remainder> of_noise = remaindersOf(noise, period, linear);
-  std::vector<std::vector<Remainder>> of_drives;
-  for (const StrutDrives& drive : drives) of_drives.push_back(remaindersOf(drive, period, models));
+  const auto of_drives = mapped(drives, [&](const StrutDrives& drive) { return remaindersOf(drive, period, models); });
   const auto runs_away = [](const std::vector<Remainder>& remainder) { return remainder.empty(); };
   if (runs_away(of_noise) || std::any_of(of_drives.begin(), of_drives.end(), runs_away)) return;
   const Eigen::Index reach = std::lround(kVehicleTuning.noise_reach / period);

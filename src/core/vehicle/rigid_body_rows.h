@@ -15,18 +15,21 @@ class RigidBody {
  public:
   enum Kind { kDamping, kStiffness, kNumKinds };
 
-  /// @param q  motions' shares in the tops, scaled.
-  RigidBody(const Eigen::MatrixXd& q, const std::vector<StrutPair>& pairs, BodyFitResult::Bars bars)
-      : q_(q), pairs_(pairs), bars_(bars) {}
+  enum class Bars { kNone, kStiffness, kStiffnessAndDamping };
+
+  /// Without bars.  @param places  as fitRigidBody().
+  RigidBody(Eigen::Index struts, const StrutPlaces& places);
+
+  Bars bars = Bars::kNone;                     ///< that it has
+  std::vector<StrutPair> pairs;                ///< that a bar may join
+  bool sees_pitch = false, sees_roll = false;  ///< struts stand so that they see the body turn
 
   int numStruts() const { return static_cast<int>(q_.rows()); }
   int numMotions() const { return static_cast<int>(q_.cols()); }
   int numBars(int kind) const {
-    const bool has =
-        kind == kDamping ? bars_ == BodyFitResult::Bars::kStiffnessAndDamping : bars_ != BodyFitResult::Bars::kNone;
-    return has ? static_cast<int>(pairs_.size()) : 0;
+    const bool has = kind == kDamping ? bars == Bars::kStiffnessAndDamping : bars != Bars::kNone;
+    return has ? static_cast<int>(pairs.size()) : 0;
   }
-  const StrutPair& bar(int p) const { return pairs_[p]; }
 
   // Places among the parameters; S_ab with a >= b, not both 0.
   static int bodyAt(int a, int b) { return a * (a + 1) / 2 + b - 1; }
@@ -53,7 +56,7 @@ class RigidBody {
   Eigen::MatrixXd struts(const Eigen::VectorXd& parameters, int kind) const {
     Eigen::MatrixXd result = parameters.segment(firstStrut(kind), numStruts()).asDiagonal();
     for (int p = 0; p < numBars(kind); ++p) {
-      const auto [i, j] = pairs_[p];
+      const auto [i, j] = pairs[p];
       const double value = parameters[firstBar(kind) + p];
       result(i, i) += value;
       result(j, j) += value;
@@ -74,10 +77,15 @@ class RigidBody {
     return rows(mobility(inertia(parameters)), parameters);
   }
 
+  /// @return M/Iyy, M/Ixx, x and y of the centre of gravity; 0 what is not seen.
+  Eigen::Vector4d massAndPlace(const Eigen::VectorXd& parameters) const;
+  /// @return false: no vehicle has a body with such numbers. Laws with memory may look like bars: so is the body that
+  /// fits together with such bars.
+  bool isVehicle(const Eigen::VectorXd& parameters) const;
+
  private:
-  const Eigen::MatrixXd& q_;
-  const std::vector<StrutPair>& pairs_;
-  BodyFitResult::Bars bars_;
+  Eigen::MatrixXd q_;                                                                   // struts by motions, scaled
+  Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), scale_ = Eigen::Vector2d::Ones();  // of x, y
 };
 
 // What is known of any vehicle: its radius of gyration about an axis is the distance of the struts from it, but for a
@@ -136,7 +144,7 @@ class RigidBodyRows {
         whiten(slope, jacobian.col(body_.firstStrut(kind) + j));
       }
       for (int p = 0; p < body_.numBars(kind); ++p) {
-        const auto [i, j] = body_.bar(p);
+        const auto [i, j] = body_.pairs[p];
         slope.setZero();
         slope.col(kind * n_ + i) = a.col(i) - a.col(j);
         slope.col(kind * n_ + j) = a.col(j) - a.col(i);

@@ -85,7 +85,6 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
   if (drives.empty()) throw std::invalid_argument("no drive is given, must be one or more");
   requireNumStruts(names.size());
   requireNumKnownForces(drives.front().forces.size());
-  std::vector<Drive> of_first;
   for (const VehicleDrive& drive : drives) {
     if (drive.struts.size() != names.size())
       throw std::invalid_argument("a drive of " + std::to_string(drive.struts.size()) + " struts, must be " +
@@ -97,23 +96,22 @@ double periodOf(const std::vector<VehicleDrive>& drives, const std::vector<std::
       throw std::invalid_argument("a drive with the known forces [" + join(namesOf(drive.forces)) + "], must be [" +
                                   join(namesOf(drives.front().forces)) + "] as in the first");
     requireOneGrid(drive);
-    of_first.push_back(drive.struts.front());
   }
-  return given ? *given : medianPeriod(of_first);
+  if (given) return *given;
+  return medianPeriod(mapped(drives, [](const VehicleDrive& drive) { return drive.struts.front(); }));
 }
 
 VehicleCoupling describe(const BodyRows& rows, const std::optional<BodyFitResult>& body,
                          const std::vector<std::string>& forces) {
   VehicleCoupling coupling;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) {
-    coupling.ratios.emplace_back();
-    coupling.stddevs.emplace_back();
+  coupling.ratios.assign(rows.size(), std::vector<double>(rows.size()));
+  coupling.stddevs = coupling.ratios;
+  for (Eigen::Index i = 0; i < rows.size(); ++i)
     for (Eigen::Index j = 0; j < rows.size(); ++j) {
       const Measured ratio = rows.ratio(i, j);
-      coupling.ratios.back().push_back(ratio.value);
-      coupling.stddevs.back().push_back(ratio.stddev);
+      coupling.ratios[i][j] = ratio.value;
+      coupling.stddevs[i][j] = ratio.stddev;
     }
-  }
   for (std::size_t k = 0; k < forces.size(); ++k)
     coupling.forces.push_back({forces[k], columnOf(rows.force, k), columnOf(rows.force_stddev, k)});
   if (!body) return coupling;

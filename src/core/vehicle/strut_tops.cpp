@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/vehicle/strut_tops.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -70,27 +69,19 @@ void StrutTops::collect(const GridInstant& instant) {
 
 void StrutTops::spread(const std::vector<double>& values, const std::vector<double>& rates) {
   auto next = values.begin();
-  Eigen::Index i = 0;
-  for (const Strut& strut : channels_.struts) {
+  for (std::size_t i = 0; i < channels_.struts.size(); ++i) {
     sample_.unsprung[i] = *next++;
-    if (strut.sprung) sample_.sprung[i] = *next++;
-    ++i;
+    if (channels_.struts[i].sprung) sample_.sprung[i] = *next++;
   }
-  for (i = 0; i < sample_.forces.size(); ++i) sample_.forces[i] = *next++;
+  for (Eigen::Index k = 0; k < sample_.forces.size(); ++k) sample_.forces[k] = *next++;
   if (!filter_) return;
   const double upward = *next++;
   const Eigen::Vector3d products(next[0], next[1], next[2]);
-  i = 0;
-  for (const Strut& strut : channels_.struts) {
-    const Eigen::Vector3d& r = *strut.position;
-    if (!strut.sprung) sample_.sprung[i] = upward + rates[0] * r.y() - rates[1] * r.x() + products.dot(r);
-    ++i;
+  for (std::size_t i = 0; i < channels_.struts.size(); ++i) {
+    if (channels_.struts[i].sprung) continue;
+    const Eigen::Vector3d& r = *channels_.struts[i].position;
+    sample_.sprung[i] = upward + rates[0] * r.y() - rates[1] * r.x() + products.dot(r);
   }
-}
-
-std::vector<double> StrutTops::lowPass() const {
-  if (!filter_) return {};
-  return {filter_->lowPass().data(), filter_->lowPass().data() + filter_->lowPass().size()};
 }
 
 }  // namespace suspension_health_monitor

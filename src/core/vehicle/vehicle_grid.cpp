@@ -10,12 +10,6 @@
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-using Place = VehicleStreams::Place;
-using Sensor = VehicleReading::Sensor;
-
-}  // namespace
 
 VehicleGrid::VehicleGrid(double period, const VehicleStreams& streams, const GridOptions& options, Sink sink,
                          ReadingSink readings)
@@ -52,11 +46,10 @@ bool VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
 void VehicleGrid::lead(const VehicleStreams::Sensor& sensor, const double* values, Stamp taken) {
   if (!readings_ || sensor.place == Place::kRoad) return;
   if (sensor.place == Place::kForce) {
-    for (std::size_t i = 0; i < sensor.count; ++i) give({Sensor::kForce, sensor.forces[i], taken, {values[i]}});
+    for (std::size_t i = 0; i < sensor.count; ++i) give({Place::kForce, sensor.forces[i], taken, {values[i]}});
     return;
   }
-  VehicleReading reading{Sensor::kBody, sensor.strut, taken, {}};
-  if (sensor.place != Place::kBody) reading.sensor = sensor.place == Place::kSprung ? Sensor::kTop : Sensor::kWheel;
+  VehicleReading reading{sensor.place, sensor.strut, taken, {}};
   std::copy_n(values, sensor.count, reading.values.begin());
   give(reading);
 }
@@ -66,9 +59,9 @@ void VehicleGrid::give(VehicleReading reading) {
     waiting_readings_.push_back(reading);
     return;
   }
-  if (reading.sensor == Sensor::kBody) {
+  if (reading.sensor == Place::kBody) {
     Eigen::Map<Eigen::Vector3d> acceleration(reading.values.data()), rate(reading.values.data() + 3);
-    acceleration = vehicle_.body_mount * acceleration.eval() / level_.gain();
+    acceleration = vehicle_.body_mount * acceleration.eval() / level_.gain;
     rate = vehicle_.body_mount * rate.eval();
   }
   readings_(reading);
@@ -86,13 +79,9 @@ void VehicleGrid::take(const GridInstant& instant) {
   waiting_.push_back(instant);
   if (waiting_.size() < num_to_wait_) return;
   const BodyLevel newest = levelSince(waiting_.size() - level_window_);
-  if (newest.isSteady()) return turnUpright(newest);
+  if (newest.is_steady) return turnUpright(newest);
   num_to_wait_ += level_window_ / 2;
   if (num_to_wait_ > kVehicleTuning.most_windows * level_window_) turnUpright(levelSince(0));
-}
-
-void VehicleGrid::finish() {
-  if (!waiting_.empty()) turnUpright(levelSince(0));
 }
 
 BodyLevel VehicleGrid::levelSince(std::size_t first) const {
@@ -104,9 +93,9 @@ BodyLevel VehicleGrid::levelSince(std::size_t first) const {
 
 void VehicleGrid::turnUpright(const BodyLevel& level) {
   level_ = level;
-  vehicle_.body_mount = level_.mount();
+  vehicle_.body_mount = level_.mount;
   for (VehicleChannels::Strut& strut : vehicle_.struts)
-    if (strut.position) strut.position = Eigen::Vector3d(level_.mount() * *strut.position);
+    if (strut.position) strut.position = Eigen::Vector3d(level_.mount * *strut.position);
   tops_ = StrutTops(period_, vehicle_);
   num_to_wait_ = 0;
   const std::vector<VehicleReading> readings = std::exchange(waiting_readings_, {});

@@ -1,6 +1,5 @@
 #include "suspension_health_monitor/internal/vehicle/vehicle_layout.h"
 
-#include <algorithm>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
 #include <cmath>
@@ -11,7 +10,6 @@
 #include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
-#include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -49,13 +47,12 @@ std::array<double, 3> toPosition(const std::string& where, const OptionValue& va
   boost::algorithm::split(parts, inside, [](char c) { return c == ','; });
   std::array<double, 3> position{};
   if (parts.size() != position.size()) refuse(allowed);
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    try {
-      position[i] =
-          toNumber(where, boost::algorithm::trim_copy(parts[i]), -kVehicleTuning.farthest, kVehicleTuning.farthest);
-    } catch (const std::invalid_argument&) {
-      refuse(allowed);
-    }
+  const double most = kVehicleTuning.farthest;
+  try {
+    for (std::size_t i = 0; i < position.size(); ++i)
+      position[i] = toNumber(where, boost::algorithm::trim_copy(parts[i]), -most, most);
+  } catch (const std::invalid_argument&) {
+    refuse(allowed);
   }
   return position;
 }
@@ -144,15 +141,6 @@ VehicleLayout VehicleLayout::ofOneStrut(bool has_road) {
   return layout;
 }
 
-bool VehicleLayout::hasFrames() const {
-  return std::any_of(struts.begin(), struts.end(), [](const Strut& strut) { return strut.frame.has_value(); });
-}
-
-void VehicleLayout::turn(const Eigen::Matrix3d& mount) {
-  for (Strut& strut : struts)
-    if (strut.position) Eigen::Map<Eigen::Vector3d>(strut.position->data()).applyOnTheLeft(mount);
-}
-
 VehicleLayout takeVehicle(OptionMap& values) {
   VehicleLayout layout;
   const std::map<std::string, OptionMap> struts = takeGroups(values, "struts"),
@@ -194,35 +182,21 @@ VehicleStreams::VehicleStreams(const VehicleLayout& layout) {
     channels.struts.push_back(its);
   }
   if (layout.road_imu) channels.road = add(*layout.road_imu, Place::kRoad, 1, "road_imu");
-  addForces(layout.known_forces);
-}
-
-void VehicleStreams::addForces(const std::vector<VehicleLayout::KnownForce>& forces) {
-  const auto num_imus = static_cast<std::ptrdiff_t>(sensors.size());
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    const VehicleLayout::KnownForce& force = forces[k];
-    auto sensor = std::find_if(sensors.begin() + num_imus, sensors.end(),
-                               [&](const Sensor& each) { return each.topic == force.topic; });
-    if (sensor == sensors.end())
-      sensor = sensors.insert(sensor, {force.topic, Place::kForce, 0, 0, 0, "known_forces/" + force.name + "/topic"});
-    sensor->fields.push_back(force.field);
-    sensor->forces.push_back(k);
-  }
-  channels.known_forces.resize(forces.size());
-  for (std::size_t number = num_imus; number < sensors.size(); ++number) {
-    Sensor& sensor = sensors[number];
-    sensor.stream = options.size();
-    sensor.count = sensor.forces.size();
-    for (const std::size_t k : sensor.forces) {
+  channels.known_forces.resize(layout.known_forces.size());
+  for (const VehicleLayout::KnownForce& first : layout.known_forces) {
+    const auto has_it = [&](const Sensor& each) { return each.place == Place::kForce && each.topic == first.topic; };
+    if (std::any_of(sensors.begin(), sensors.end(), has_it)) continue;
+    Sensor& sensor = sensors.emplace_back(
+        Sensor{first.topic, Place::kForce, options.size(), 0, 0, "known_forces/" + first.name + "/topic"});
+    for (std::size_t k = 0; k < layout.known_forces.size(); ++k) {
+      if (layout.known_forces[k].topic != first.topic) continue;
+      sensor.fields.push_back(layout.known_forces[k].field);
+      sensor.forces.push_back(k);
       channels.known_forces[k] = options.size();
-      options.push_back({number, true, true});
+      options.push_back({sensors.size() - 1, true, true});
     }
+    sensor.count = sensor.forces.size();
   }
-}
-
-std::size_t VehicleStreams::bodyImuOf(std::size_t strut) const {
-  const std::optional<std::size_t>& own = channels.struts[strut].sprung;
-  return options[own ? *own : *channels.body_imu].sensor;
 }
 
 void requireNumStruts(std::size_t count) {

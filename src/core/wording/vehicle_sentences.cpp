@@ -130,7 +130,7 @@ std::string describe(InertiaDoubt doubt) {
 
 std::string describe(const BodyLevel& level) {
   if (!level.isTurned()) return "";
-  return "the body's IMU leans by " + std::to_string(std::lround(level.lean() / kDegree)) +
+  return "the body's IMU leans by " + std::to_string(std::lround(level.lean / kDegree)) +
          " degrees: gravity tells which way is up; positions are in its own axes";
 }
 

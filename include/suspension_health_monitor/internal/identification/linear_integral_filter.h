@@ -40,7 +40,11 @@ class HorizonIntegral {
   /// @return the integral over the L intervals that end lateness() samples ago [unit of the signal times s].
   double update(const DelayLine& signal);
 
-  void reset();
+  void reset() {
+    ends_.reset();
+    sum_ = fresh_ = 0.0;
+    until_refresh_ = intervals_;
+  }
 
  private:
   int intervals_;
@@ -75,7 +79,10 @@ class LinearIntegralFilter {
   /// @throws std::invalid_argument  naming the argument, its value and what is allowed.
   LinearIntegralFilter(int order, const IntegralFilterOptions& options, int lowest_derivative = 0);
 
-  void push(double sample);
+  void push(double sample) {
+    lines_.front().push(sample);
+    for (std::size_t i = 0; i < integrals_.size(); ++i) lines_[i + 1].push(integrals_[i].update(lines_[i]));
+  }
 
   /// @return how many samples make an output, n (L + 2 lateness) + 1.
   static int window(int order, const IntegralFilterOptions& options) {
@@ -89,7 +96,10 @@ class LinearIntegralFilter {
   /// @return I_r^n x, n lateness samples ago [unit of x times s^(n-r)].
   double output(int derivative) const;
 
-  void reset();
+  void reset() {
+    for (HorizonIntegral& integral : integrals_) integral.reset();
+    for (DelayLine& line : lines_) line.reset();
+  }
 
  private:
   int order_;

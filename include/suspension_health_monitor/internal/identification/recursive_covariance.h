@@ -35,7 +35,7 @@ class UdCovariance {
   /// Gives parameter i, so far fixed (all its entries of P are 0), the variance `variance` > 0.
   /// It is also the ceiling of D_i: forgetting never makes a parameter less certain than it was at its start, so that
   /// hours without excitation cannot overflow.
-  void release(int i, double variance);
+  void release(int i, double variance) { diagonal_[i] = ceiling_[i] = variance; }
 
   bool isReleased(int i) const { return ceiling_[i] > 0.0; }
 
@@ -51,7 +51,10 @@ class UdCovariance {
   void addTo(int i, int j) { upper_.row(i) += upper_.row(j); }
 
   /// P <- factor P, the ceilings with it; factor > 0.
-  void scale(double factor);
+  void scale(double factor) {
+    diagonal_ *= factor;
+    ceiling_ *= factor;
+  }
 
   /// @return P_ii.
   double variance(int i) const {
@@ -60,7 +63,7 @@ class UdCovariance {
   }
 
   /// @return P, (p, p).
-  Eigen::MatrixXd matrix() const;
+  Eigen::MatrixXd matrix() const { return upper_ * diagonal_.asDiagonal() * upper_.transpose(); }
 
  private:
   Eigen::MatrixXd upper_;     // U, unit diagonal

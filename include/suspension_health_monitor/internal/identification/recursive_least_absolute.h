@@ -6,12 +6,6 @@
 
 namespace suspension_health_monitor {
 
-/// What keeps the weight 1/|epsilon| finite when a row is hit (almost) exactly.
-enum class SmallDivisor {
-  kAbsolute,  ///< |epsilon| >= eps_min in the unit of psi, as in the paper (below Eq. (23))
-  kRelative,  ///< |epsilon| >= eps_min times the scale of the residuals: scale-free
-};
-
 /// @param smallest  eps_min >= 0, [unit of psi] if absolute, [-] if relative.
 /// @param residual_scale  mean |epsilon| >= 0 [unit of psi], only used by the relative rule.
 /// @return what |residual| is at least taken for [unit of psi]; at least 1e-100, so that a row hit exactly under a
@@ -19,13 +13,6 @@ enum class SmallDivisor {
 inline double smallestDivisor(SmallDivisor rule, double smallest, double residual_scale) {
   return std::max(rule == SmallDivisor::kRelative ? smallest * residual_scale : smallest, 1e-100);
 }
-
-struct LeastAbsoluteOptions {
-  int start_rows = 150;  ///< k0: rows during which LS leads, >= 1
-  SmallDivisor small_divisor_rule = SmallDivisor::kRelative;
-  double small_divisor = 0.2;             ///< eps_min >= 0, [unit of psi] if absolute, [-] if relative
-  bool scale_covariance_at_start = true;  ///< P_LA = P_LS mean|epsilon| at the hand-over, else P_LA = P_LS (paper)
-};
 
 /// Recursive estimation in the sense of the least sum of absolute values, sum_i lambda^(k-i) |psi_i - phi_i' theta|:
 /// every row is weighted by 1/|epsilon| once, when it comes.
@@ -38,7 +25,7 @@ struct LeastAbsoluteOptions {
 /// Cost per update: O(p^2), no allocation.
 class RecursiveLeastAbsolute : public RecursiveEstimator {
  public:
-  RecursiveLeastAbsolute(int num_parameters, const RecursiveOptions& recursive, const LeastAbsoluteOptions& options);
+  using RecursiveEstimator::RecursiveEstimator;
 
   /// @param row  regressor of size p. A row of zeros says nothing and changes nothing.
   /// @return the innovation before the update, in the unit of psi.
@@ -55,15 +42,14 @@ class RecursiveLeastAbsolute : public RecursiveEstimator {
 
  private:
   double scale() const { return weights_.mean(kSquareScore) / weights_.mean(kWeight); }
-  bool leads() const { return rows_ == absolute_.start_rows; }  // else LS does
+  bool leads() const { return rows_ == options_.start_rows; }  // else LS does
   double weigh(double innovation);
   void takeOver();
 
   enum Mean : std::size_t { kSquareScore, kWeight, kNumMeans };
 
-  LeastAbsoluteOptions absolute_;
-  RunningMeans<kNumMeans> weights_;  // (w epsilon)^2, w
-  int rows_ = 0;                     // counts up to k0 and stays there
+  RunningMeans<kNumMeans> weights_{options_.forgetting_factor};  // (w epsilon)^2, w
+  int rows_ = 0;                                                 // counts up to k0 and stays there
 };
 
 }  // namespace suspension_health_monitor

@@ -16,6 +16,12 @@ enum class InitialVariance {
   kRelative,  ///< P_ii(0) = v / phi_i^2 with the first regressor entry that is not 0: scale-free
 };
 
+/// What keeps the weight 1/|epsilon| finite when a row is hit (almost) exactly.
+enum class SmallDivisor {
+  kAbsolute,  ///< |epsilon| >= eps_min in the unit of psi, as in the paper (below Eq. (23))
+  kRelative,  ///< |epsilon| >= eps_min times the scale of the residuals: scale-free
+};
+
 struct RecursiveOptions {
   double forgetting_factor = 0.98;  ///< lambda in (0, 1]; memory 1 / (1 - lambda) rows
   double initial_variance = 1e5;    ///< v > 0, [1/phi^2] if absolute, [-] if relative
@@ -25,8 +31,11 @@ struct RecursiveOptions {
   /// much c_o grows per row.
   bool drifting_offset = false;
 
-  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
-  void validate() const;
+  // Of RecursiveLeastAbsolute alone:
+  int start_rows = 150;  ///< k0: rows during which LS leads, >= 1
+  SmallDivisor small_divisor_rule = SmallDivisor::kRelative;
+  double small_divisor = 0.2;             ///< eps_min >= 0, [unit of psi] if absolute, [-] if relative
+  bool scale_covariance_at_start = true;  ///< P_LA = P_LS mean|epsilon| at the hand-over, else P_LA = P_LS (paper)
 };
 
 /// What LS and LA have in common: an estimate theta with its covariance, updated row by row with a weight. Another
@@ -36,6 +45,7 @@ struct RecursiveOptions {
 class RecursiveEstimator {
  public:
   /// @param num_parameters  p >= 1.
+  /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   RecursiveEstimator(int num_parameters, const RecursiveOptions& options);
 
   /// Goes on with other columns: estimates and covariance of those that stay are kept. A new one stays at its start
@@ -49,7 +59,10 @@ class RecursiveEstimator {
   double forgettingFactor() const { return options_.forgetting_factor; }  ///< the present one
 
   /// Forgets faster or more slowly from the next row on; the estimate stays.
-  void setForgettingFactor(double forgetting_factor);
+  void setForgettingFactor(double forgetting_factor) {
+    options_.forgetting_factor = forgetting_factor;
+    means_.setForgettingFactor(forgetting_factor);
+  }
 
   /// The next row does not follow the one before: residuals of both are not correlated.
   void interrupt() { scatter_.interrupt(); }

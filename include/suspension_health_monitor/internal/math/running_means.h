@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
 
@@ -68,9 +69,20 @@ class LimitedMean {
 class RunningComparison {
  public:
   /// @param forgetting_factor  lambda in (0, 1]; window of 1 / (1 - lambda) samples.
-  explicit RunningComparison(double forgetting_factor);
+  explicit RunningComparison(double forgetting_factor)
+      : means_(forgetting_factor),
+        residual_(forgetting_factor),
+        measured_(forgetting_factor),
+        worse_(forgetting_factor),
+        half_weight_(0.5 / (1.0 - std::min(forgetting_factor, 1.0 - 1e-12))) {}
 
-  void add(double measured, double predicted);
+  void add(double measured, double predicted) {
+    const double residual = measured - predicted;
+    means_.add({residual, residual * residual, measured, measured * measured});
+    residual_.add(residual);
+    measured_.add(measured);
+    worse_.add(std::abs(residual - residual_.mean()) > std::abs(measured - measured_.mean()) ? 1.0 : 0.0);
+  }
 
   /// @return true if the prediction was farther from the measurement than a constant for more than half of the window,
   /// once half of its weight is in. It asks how often, not by how much: a sum of squares that holds one wrong reading
@@ -78,16 +90,21 @@ class RunningComparison {
   bool isWorseThanConstant() const { return means_.weight() > half_weight_ && worse_.mean() > 0.5; }
 
   /// @return root mean square of (measured - predicted) about its mean; 0 before the first sample.
-  double rmse() const;
+  double rmse() const { return deviation(kResidual, kSquareResidual); }
 
   /// @return 100 (1 - |y - yhat| / |y - mean y|), 100 for a perfect model, 0 for a constant; below 0 is worse than
   /// that. NaN while the measurement has not moved.
-  double fitPercent() const;
+  double fitPercent() const {
+    const double spread = deviation(kMeasured, kSquareMeasured);
+    return spread > 0.0 ? 100.0 * (1.0 - rmse() / spread) : std::numeric_limits<double>::quiet_NaN();
+  }
 
  private:
   enum Mean : std::size_t { kResidual, kSquareResidual, kMeasured, kSquareMeasured, kNumMeans };
 
-  double deviation(Mean value, Mean square) const;
+  double deviation(Mean value, Mean square) const {
+    return std::sqrt(std::max(0.0, means_.mean(square) - means_.mean(value) * means_.mean(value)));
+  }
 
   RunningMeans<kNumMeans> means_;
   LimitedMean residual_, measured_;

@@ -3,7 +3,7 @@
 #include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"
 
@@ -15,7 +15,6 @@ struct EstimatorOptions {
   bool drifting_offset = true;     ///< of the sensors: it is estimated with the strut (SuspensionRegression)
   bool forgets_unexcited = false;  ///< true: rows of a parked vehicle count, too, as in the paper
   RecursiveOptions recursive;      ///< whose forgetting factor, correlated rows and offset are set for each estimator
-  LeastAbsoluteOptions least_absolute;
 };
 
 /// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or

@@ -54,7 +54,7 @@ class StrutIdentifier {
 
   /// From the next row on; the estimates stay.
   /// @param options  of which memory and forgetting_factor count.
-  /// @throws std::invalid_argument  as RecursiveOptions::validate().
+  /// @throws std::invalid_argument  as RecursiveEstimator.
   void setForgetting(const MonitorSettings& options);
 
   /// @return the factor that rows are forgotten by.

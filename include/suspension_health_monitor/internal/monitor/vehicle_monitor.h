@@ -62,8 +62,8 @@ class VehicleMonitor {
   /// @param imu  of a strut; of others nothing is done.  @param up  as SensorReport::up.
   void setUp(const VehicleStreams::Sensor& imu, std::string_view up);
 
-  /// Tests the vehicle file (VehicleClaims) and fits a rigid body to the rows (BodyFit), so that absolute values carry
-  /// the model's error. Takes 10 ms for four struts: not for the sample path.
+  /// Tests the vehicle file (VehicleClaims) and fits a rigid body to the rows (fitRigidBody), so that absolute values
+  /// carry the model's error. Takes 10 ms for four struts: not for the sample path.
   void fitBody();
 
   /// The same: at once for the first time, and then, where enough blocks are new, one portion a call: at most 2 ms.

@@ -7,9 +7,35 @@
 #include <utility>
 #include <vector>
 
-#include "suspension_health_monitor/internal/vehicle/top_rows.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
+
+/// What the rows of all tops say: how much the travel rate and the travel of every strut, and every known force, moves
+/// every top, and how sure that is:
+///     z_i'' = sum_j (b1_ij d_j' + b0_ij d_j) + sum_k c_ik f_k,  d_j = w_j - z_j.
+struct BodyRows {
+  Eigen::MatrixXd rate, travel;             ///< b1_ij [1/s], b0_ij [1/s^2], tops by struts
+  Eigen::MatrixXd force;                    ///< c_ik [m/s^2 per unit of the force], tops by known forces
+  Eigen::MatrixXd force_stddev;             ///< of c_ik; like the covariance empty in a model
+  std::vector<Eigen::MatrixXd> covariance;  ///< by top that of its rates, then its travels
+  bool is_by_body = false;  ///< one IMU of the body tells of all tops: no more rows are independent than it has motions
+
+  Eigen::Index size() const { return rate.rows(); }
+
+  /// @return rho_ij, the share of what strut j does to its own top that it does to top i: the mean of b1_ij / b1_jj and
+  /// b0_ij / b0_jj, weighted by their variances. Of a rigid body without anti-roll bars it is a_ij / a_jj.
+  Measured ratio(Eigen::Index i, Eigen::Index j) const;
+  /// @return true if every ratio is known well enough to take the other struts out.
+  bool areKnown() const;
+  /// @return the linear struts.
+  std::vector<StrutModel> models() const {
+    std::vector<StrutModel> models;
+    for (Eigen::Index i = 0; i < size(); ++i) models.push_back({rate(i, i), travel(i, i), {}, {}});
+    return models;
+  }
+};
 
 /// Why the rows of the struts do not tell how the body's mass is spread.
 enum class InertiaDoubt {
@@ -21,14 +47,10 @@ enum class InertiaDoubt {
 
 /// How a rigid body's mass is spread.
 struct BodyInertia {
-  Measured mass_to_pitch_inertia;  ///< M/Iyy [1/m^2]
-  Measured mass_to_roll_inertia;   ///< M/Ixx [1/m^2]
-  Measured x, y;                   ///< of the centre of gravity, from where positions count [m]
-};
-
-struct BodyInertiaResult {
-  std::optional<BodyInertia> body;
-  InertiaDoubt doubt = InertiaDoubt::kNone;
+  InertiaDoubt doubt = InertiaDoubt::kNone;  ///< else nothing of it is known
+  Measured mass_to_pitch_inertia{};          ///< M/Iyy [1/m^2]
+  Measured mass_to_roll_inertia{};           ///< M/Ixx [1/m^2]
+  Measured x{}, y{};                         ///< of the centre of gravity, from where positions count [m]
 };
 
 /// By strut x ahead and y to the left of the strut's top, from any one point of the body [m].
@@ -42,7 +64,6 @@ std::vector<StrutPair> pairsOf(const StrutPlaces& places);
 
 /// A rigid body on struts, as far as its rows tell.
 struct BodyFitResult {
-  enum class Bars { kNone, kStiffness, kStiffnessAndDamping };
   struct Bar {
     StrutPair struts;
     /// a_ii times the bar's, over the body's mass at the first and at the second strut [1/s^2], [1/s].
@@ -50,8 +71,7 @@ struct BodyFitResult {
   };
 
   double phi = 0.0;              ///< error of the model per coefficient, over the largest of its kind in its row [-]
-  Bars bars = Bars::kNone;       ///< that are named
-  std::vector<Bar> found;        ///< these
+  std::vector<Bar> found;        ///< that are named
   std::vector<Measured> b1, b0;  ///< by strut, its own column at its own top with its share of bars [1/s], [1/s^2]
 
   /// @param own  b1, b0 of a strut's estimate.
@@ -71,7 +91,7 @@ struct BodyFitResult {
 };
 
 /// @param fit  of the rows of all struts; nothing: not known.  @param places  by strut; empty: not known.
-BodyInertiaResult inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places);
+BodyInertia inertiaOf(const std::optional<BodyFitResult>& fit, const StrutPlaces& places);
 
 /// Minimum-distance fit of a rigid body on linear struts and anti-roll bars to the rows of its tops, (B23) in
 /// doc/equations.md:
@@ -83,39 +103,11 @@ BodyInertiaResult inertiaOf(const std::optional<BodyFitResult>& fit, const Strut
 /// equal to its degrees of freedom. Sources: minimum distance: G. Chamberlain, Panel data, Handbook of Econometrics 2
 /// (1984), 3.; a common error that chi2 tells: R. T. Birge, The calculation of errors by the method of least squares
 /// (1932).
-class BodyFit {
- public:
-  /// @param places  by strut, from any point of the body; empty: not known. Then forces at any two tops move one
-  /// another alike, no more.
-  BodyFit(std::size_t struts, const StrutPlaces& places);
-
-  /// @param halves  rows of two sets of blocks that share no reading, by which bars must agree; empty: no bar is named.
-  /// @return nothing if the solver fails.
-  std::optional<BodyFitResult> fit(const BodyRows& rows, const std::vector<BodyRows>& halves = {}) const;
-
- private:
-  struct Solution {
-    BodyFitResult::Bars bars;
-    double phi;
-    Eigen::VectorXd parameters;  ///< as RigidBody has them
-    Eigen::MatrixXd covariance;
-    double chi2 = 0.0;
-  };
-
-  std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars, double phi,
-                                const Eigen::VectorXd& start) const;
-  std::optional<Solution> solve(const BodyRows& rows, BodyFitResult::Bars bars) const;
-  bool hasNegativeBar(const Solution& solution) const;
-  bool isVehicle(const Eigen::Vector4d& inertia) const;
-  bool isNamed(const Solution& without, const Solution& with, const std::vector<BodyRows>& halves) const;
-  /// @return M/Iyy, M/Ixx, x and y of the centre of gravity.
-  Eigen::Vector4d inertia(const Eigen::MatrixXd& s) const;
-  BodyFitResult describe(const Solution& solution) const;
-
-  Eigen::MatrixXd q_;                                                                   // struts by motions, scaled
-  Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), scale_ = Eigen::Vector2d::Ones();  // of x, y
-  bool sees_pitch_ = false, sees_roll_ = false;
-  std::vector<StrutPair> pairs_;  // that a bar may join
-};
+/// @param places  by strut, from any point of the body; empty: not known. Then forces at any two tops move one another
+/// alike, no more.
+/// @param halves  rows of two sets of blocks that share no reading, by which bars must agree; empty: no bar is named.
+/// @return nothing if the solver fails.
+std::optional<BodyFitResult> fitRigidBody(const BodyRows& rows, const StrutPlaces& places,
+                                          const std::vector<BodyRows>& halves = {});
 
 }  // namespace suspension_health_monitor

@@ -2,12 +2,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/blocks/fourier_integrals.h"
+#include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
@@ -31,7 +31,9 @@ class VehicleSpectra {
   void pushEffects(double time, const double* forces) { streams_.back().push(time, forces, phases_); }
 
   /// The next reading of every stream is its first one.
-  void restart();
+  void restart() {
+    for (FourierIntegrals& stream : streams_) stream.restart();
+  }
 
   /// @return true if all streams are beyond this half block.
   bool isPassed(long half) const;
@@ -43,8 +45,12 @@ class VehicleSpectra {
   /// Fills in what was measured in the block that ends with this half block, but for the neighbours.
   void fill(std::size_t strut, long half, StrutBlock& block);
 
-  /// @return powers of a_z, w_x and w_y of the body's IMU in the band of that block.
-  std::array<double, 3> bodyPowers(long half);
+  /// Whether the gyro of the body's IMU has died while the vehicle drove: an axis turns a tenth as much as on average,
+  /// or less, while the body moves up and down as before. By chance the power of a block, of a dozen independent
+  /// numbers or more, is not a hundred times smaller than on average. VehicleClaims finds a gyro that never turned.
+  /// @return true if it was so in the newest block, up to this half block, in which the body moved.
+  bool gyroIsDeadIn(long half);
+  bool hasDeadGyro() const { return has_dead_gyro_; }  ///< at the last one of these
 
  private:
   enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };
@@ -60,6 +66,8 @@ class VehicleSpectra {
   std::vector<std::size_t> top_of_;        // by strut, in streams_
   std::size_t body_ = 0, forces_ = 0;      // likewise; the first one
   Eigen::ArrayXcd channel_, derivative_;
+  RunningMeans<3> body_power_{0.99};  // of a_z, w_x, w_y: of the last hundred blocks
+  bool has_dead_gyro_ = false;
 };
 
 /// Where the column of strut j is among the neighbours of strut i, as StrutBlock::neighbours has them: the rate's; the
@@ -81,8 +89,8 @@ class CoupledTops {
  public:
   CoupledTops(const BlockBand& band, std::size_t struts, std::size_t forces);
 
-  void setRows(const TopRows& rows);
-  const TopRows& rows() const { return rows_; }
+  void setRows(const BodyRows& rows);
+  const BodyRows& rows() const { return rows_; }
 
   /// @param blocks  of all struts.  @param age  of the block.  @param first_force  among their force columns.
   void predict(const std::vector<BlockEstimator>& blocks, int age, int first_force);
@@ -102,7 +110,7 @@ class CoupledTops {
   Small loopAt(Eigen::Index bin) const;  // s^2 I + Q
 
   Eigen::ArrayXcd s_;
-  TopRows rows_;
+  BodyRows rows_;
   Eigen::ArrayXXcd wheels_, forces_, travel_;
   Eigen::PartialPivLU<Small> lu_;
   std::vector<Small> follows_;  // T by bin

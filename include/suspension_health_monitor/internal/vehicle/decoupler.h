@@ -10,6 +10,7 @@
 #include "suspension_health_monitor/internal/math/running_means.h"
 #include "suspension_health_monitor/internal/model/strut_integrator.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 #include "suspension_health_monitor/strut_model.h"
 
@@ -33,7 +34,10 @@ class TravelObserver {
 
   bool full() const { return slow_.front().full(); }
 
-  static int delayOf(int natural_period);  ///< [samples]
+  /// [samples]
+  static int delayOf(int natural_period) {
+    return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
+  }
 
   /// At the sample so much before the newest one, once full():
   double travel() const { return fast(0); }      ///< d [m]
@@ -45,7 +49,7 @@ class TravelObserver {
   void startNewSeries();
 
  private:
-  double fast(std::size_t which) const;
+  double fast(std::size_t which) const { return recent_[which].front() - slow_[which].output(0) / horizon_; }
 
   double period_, washout_, horizon_;
   WheelInterpolator step_;
@@ -109,7 +113,6 @@ class Decoupler {
   };
 
   void follow(Strut& strut, double body_acceleration) const;
-  Observed filtered(const Strut& strut) const;
 
   double period_;
   std::array<StrutMatrix, kParts> ratios_;  // of each part, 0 for j = i

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
+#include "suspension_health_monitor/internal/vehicle/tuning.h"
 
 namespace suspension_health_monitor {
 
 /// How the IMU of a body is turned against upright, from the gravity in its readings.
-class BodyLevel {
- public:
+struct BodyLevel {
   /// As it is given: nothing to turn.
   BodyLevel() = default;
 
@@ -19,27 +20,18 @@ class BodyLevel {
   /// large as that: a vehicle brakes as much as it pulls away. An IMU that takes gravity off tells nothing.
   explicit BodyLevel(const std::vector<Eigen::Vector3d>& accelerations);
 
-  /// @return angle between the IMU's z axis and upright [rad].
-  double lean() const { return lean_; }
-
   /// @return true if the lean is more than that of a road, of the load or of a careful hand, which cannot be told from
   /// each other and do no harm.
-  bool isTurned() const;
+  bool isTurned() const { return lean > kVehicleTuning.largest_lean; }
 
-  /// @return of the accelerations, by the size of gravity in them; 1 unless it is off by more than an offset makes.
-  double gain() const { return gain_; }
-
-  /// @return true if gravity was the same in all parts of the while, but for half of that: else the vehicle braked,
-  /// pulled away or went round a bend.
-  bool isSteady() const { return is_steady_; }
-
-  /// @return what turns the IMU's axes upright, by the smallest angle; the identity unless isTurned().
-  Eigen::Matrix3d mount() const { return mount_; }
-
- private:
-  double lean_ = 0.0, gain_ = 1.0;
-  bool is_steady_ = true;
-  Eigen::Matrix3d mount_ = Eigen::Matrix3d::Identity();
+  double lean = 0.0;  ///< angle between the IMU's z axis and upright [rad]
+  /// Of the accelerations, by the size of gravity in them; 1 unless it is off by more than an offset makes.
+  double gain = 1.0;
+  /// Gravity was the same in all parts of the while, but for half of that lean: else the vehicle braked, pulled away or
+  /// went round a bend.
+  bool is_steady = true;
+  /// What turns the IMU's axes upright, by the smallest angle; the identity unless isTurned().
+  Eigen::Matrix3d mount = Eigen::Matrix3d::Identity();
 };
 
 /// Gravity as an IMU reads it: a vehicle neither climbs for good nor pulls away more than it brakes, so that the mean
@@ -53,11 +45,16 @@ class MountClaim {
     double lean_stddev = 0.0;  ///< [rad]
     int axis = 0;              ///< of the IMU that is nearest to gravity: 0 x, 1 y, 2 z
     bool is_negative = false;  ///< that axis points down
-    bool isLeaning() const;    ///< by more than a road, a load or a careful hand makes
-    bool isOnAnotherAxis() const;
-    std::string_view name() const;             ///< of the axis that points up: "x" to "-z"
-    bool leansAs(const Finding& other) const;  ///< the two of a strut that is inclined
-    bool isWrongSize() const;                  ///< by more than kLargestOffset
+
+    /// By more than a road, a load or a careful hand makes: from what rounds to kVehicleTuning.largest_lean on.
+    bool isLeaning() const { return lean > kVehicleTuning.largest_lean - 0.5 / 180.0 * M_PI + kProven * lean_stddev; }
+    bool isOnAnotherAxis() const { return lean > kVehicleTuning.other_axis; }
+    std::string_view name() const;  ///< of the axis that points up: "x" to "-z"
+    /// The two of a strut that is inclined.
+    bool leansAs(const Finding& other) const {
+      return std::abs(lean - other.lean) < kVehicleTuning.largest_lean && lean < kVehicleTuning.other_axis;
+    }
+    bool isWrongSize() const { return std::abs(size - kStandardGravity) > kLargestOffset; }
   };
 
   /// @param acceleration  in the IMU's axes [m/s^2].
@@ -65,7 +62,7 @@ class MountClaim {
   bool add(Stamp stamp, const Eigen::Vector3d& acceleration);
 
   /// @return false as long as too little was read to tell anything.
-  bool isKnown() const;
+  bool isKnown() const { return parts_ >= kVehicleTuning.fewest_parts; }
 
   /// @param up  in the IMU's axes, of length 1.
   /// @return nothing as long as too little was read, or if the readings are without gravity.

@@ -16,12 +16,14 @@ using SixAxes = Eigen::Matrix<double, 6, 1>;
 /// Spectra of signals and between them.
 struct ImuSignals {
   BlockBand band;
+  std::vector<double> rates;                   ///< by IMU [Hz]
   Eigen::ArrayXcd s;                           ///< by bin of the band [rad/s]
   std::vector<Eigen::MatrixXcd> spectra = {};  ///< by bin of the band, signals by signals
   /// By signal the IMU: first one of each along the axis that points up [m/s^2], then three of each IMU with a gyro,
   /// angular accelerations [rad/s^2].
   std::vector<std::size_t> owners = {};
-  std::size_t imus = 0;
+
+  std::size_t imus() const { return rates.size(); }
 };
 
 /// Spectra of what several IMUs measure, in all axes, and between all of them: means over half overlapping blocks of
@@ -42,8 +44,9 @@ class ImuSpectra {
   /// @return rms along a direction in the axes of an IMU between two frequencies [m/s^2].
   double rms(std::size_t imu, const Eigen::Vector3d& direction, double from_hz, double to_hz) const;
 
-  /// @param up  of each IMU, in its axes; 0: it is left out.  @param has_gyro  by IMU.
-  ImuSignals along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro) const;
+  /// @param up  of each IMU, in its axes; 0: it is left out.  @param has_gyro  by IMU.  @param rates  by IMU [Hz].
+  ImuSignals along(const std::vector<Eigen::Vector3d>& up, const std::vector<bool>& has_gyro,
+                   const std::vector<double>& rates) const;
 
  private:
   struct Stream {
@@ -51,6 +54,7 @@ class ImuSpectra {
     std::optional<Stamp> last = {};
   };
 
+  static bool isBehind(const Stream& a, const Stream& b) { return a.integrals.openHalf() < b.integrals.openHalf(); }
   void takeBlocks(long end);
 
   BlockBand band_;
@@ -62,5 +66,26 @@ class ImuSpectra {
   std::vector<Eigen::MatrixXcd> sums_;  // by bin, of six axes by IMU
   Eigen::MatrixXd counts_;              // blocks that both IMUs have
 };
+
+/// An IMU that moves like the body over a wheel, which has the other.
+struct BodyOverWheel {
+  std::size_t body = 0, wheel = 0;  ///< places of the IMUs
+  /// One reads upward, the other downward, by the axes that were given.
+  bool is_reversed = false;
+  /// The body's IMU is the one of this wheel alone, so that the numbers below are those of the strut, else of the body.
+  bool is_own = true;
+  double explained = 0.0;  ///< share of the body's motion by all wheels, weighted over frequency
+  double damping_to_mass = 0.0, stiffness_to_mass = 0.0;  ///< b1 [1/s], b0 [1/s^2]
+  double delay = 0.0;                                     ///< by which the body's clock is late [s]
+};
+
+/// Which IMUs are those of bodies, and over which wheels. A wheel shakes far more than the body above it, and what the
+/// body does is what all wheels make of it through springs and dampers, (B20) in doc/equations.md: of the body at any
+/// point i, with accelerations,
+///     z_i'' = sum over wheels j of (b1_ij / s + b0_ij / s^2) w_j'' - (a_1 / s + a_0 / s^2) z_i'',
+/// and likewise of its angular accelerations. The damper of a wheel pushes no point harder than the one above it: b1_ij
+/// is largest there. An IMU with a gyro may serve several wheels, of which one may turn it and push it by nothing.
+/// @return a pair for each wheel, by the wheels' places.
+std::vector<BodyOverWheel> findBodiesOverWheels(const ImuSignals& signals);
 
 }  // namespace suspension_health_monitor

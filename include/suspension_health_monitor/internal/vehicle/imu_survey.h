@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -39,7 +40,10 @@ class ImuSurvey {
   double lost() const { return lost_ / (lost_ + taken_); }           ///< share of readings, pauses left out [-]
   double noise(int axis) const { return noise_[axis].deviation(); }  ///< white, at most [m/s^2]
   double largest(int axis) const { return largest_[axis]; }          ///< magnitude [m/s^2]
-  bool isStill() const;                                              ///< all axes read the same again and again
+  /// All axes read the same again and again.
+  bool isStill() const {
+    return std::all_of(gates_.begin(), gates_.end(), [](const StreamGate& gate) { return gate.isStill(); });
+  }
 
   /// @return false: the drive is too short to tell whether there is gravity in the readings.
   bool tellsGravity() const { return gravity_.isKnown(); }

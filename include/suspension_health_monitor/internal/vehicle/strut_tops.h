@@ -35,7 +35,10 @@ class StrutTops {
   int delay() const { return filter_ ? filter_->delay() : 0; }
 
   /// @return taps of the low-pass filter that samples have passed; none: nothing is filtered.
-  std::vector<double> lowPass() const;
+  std::vector<double> lowPass() const {
+    if (!filter_) return {};
+    return {filter_->lowPass().data(), filter_->lowPass().data() + filter_->lowPass().size()};
+  }
 
  private:
   void collect(const GridInstant& instant);

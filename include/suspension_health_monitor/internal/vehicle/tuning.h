@@ -38,7 +38,7 @@ struct VehicleTuning {
   double washout_start = 2.0;
   double longest_period = 4.0;  ///< natural period [s]: softer is no suspension
 
-  // The fit of the rigid body: BodyFit, VehicleBlocks.
+  // The fit of the rigid body: fitRigidBody(), VehicleBlocks.
   double least_phi = 1e-4;        ///< of what is searched: no sensor resolves less
   double most_phi = 1.0;          ///< likewise: rows that no rigid body explains at all
   int halvings = 14;              ///< of the logarithm of phi: to 0.06 %

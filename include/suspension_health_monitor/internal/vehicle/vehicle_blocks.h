@@ -11,7 +11,6 @@
 #include "suspension_health_monitor/internal/blocks/sliding_friction.h"
 #include "suspension_health_monitor/internal/vehicle/body_fit.h"
 #include "suspension_health_monitor/internal/vehicle/coupled_tops.h"
-#include "suspension_health_monitor/internal/vehicle/gyro_check.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
@@ -19,7 +18,7 @@ namespace suspension_health_monitor {
 
 /// What the blocks tell of a strut. On a body with several b1 and b0 are the coefficients of its own travel at its own
 /// top, with its share of an anti-roll bar. Their covariance is that of noise and of the scatter of blocks: a change is
-/// judged by it. That of absolute values has the model's error as well (BodyFit).
+/// judged by it. That of absolute values has the model's error as well (fitRigidBody).
 struct TopEstimate : WindowEstimate {
   Stamp stamp{};        ///< end of the newest block
   double length = 0.0;  ///< T of its blocks [s]
@@ -81,7 +80,6 @@ class VehicleBlocks {
 
   const BlockEstimator& estimator(std::size_t strut = 0) const { return estimators_[strut]; }
   const VehicleChannels& vehicle() const { return vehicle_; }
-  double length() const { return length_; }  ///< T of the blocks [s]
 
   /// @return what the blocks kept say of the vehicle file, to be worked through. Allocates.
   VehicleClaims claims() const { return claims(vehicle_); }
@@ -89,7 +87,7 @@ class VehicleBlocks {
   VehicleClaims claims(const VehicleChannels& vehicle) const;
 
   /// @return true if the gyro of the body's IMU has died: blocks are kept out as long as it is dead.
-  bool hasDeadGyro() const { return gyro_.isDead(); }
+  bool hasDeadGyro() const { return spectra_->hasDeadGyro(); }
 
   /// Another drive: nothing is known any more, but to overTheDrive().
   void restart();
@@ -114,8 +112,9 @@ class VehicleBlocks {
   const TopEstimate* update(std::size_t strut);
   void scaleNeighbours(std::size_t strut);
   void updateModel();
-  void beginRows(BodyRows& rows) const;
-  void setRow(std::size_t strut, const WindowEstimate& estimate, BodyRows& rows) const;
+  /// @param estimate_of  a strut, if it is known.  @return false: one is not, and the rows are not complete.
+  template <class EstimateOf>
+  bool setRows(const EstimateOf& estimate_of, BodyRows& rows) const;
   void follow();
 
   VehicleChannels vehicle_;
@@ -124,7 +123,6 @@ class VehicleBlocks {
   BlockColumns columns_;
   std::optional<Stamp> origin_;
   std::optional<VehicleSpectra> spectra_;
-  GyroCheck gyro_;
   std::optional<CoupledTops> model_;        // of two struts or more
   std::vector<BlockEstimator> estimators_;  // by strut, as all that follow
   std::vector<BlockEstimator> longest_;     // of the lengths before the one that covered most, for overTheDrive()
@@ -134,7 +132,7 @@ class VehicleBlocks {
   std::vector<std::optional<Stamp>> last_;  // by Sensor and place; then of the effects
   Modulation modulation_;
   Eigen::ArrayXXcd motions_;  // H_1, H_0 of every w'' - z''
-  TopRows rows_;
+  BodyRows rows_;
   bool has_model_ = false;
   std::size_t to_update_ = 0;  // tops that the newest block has not come to yet
   int to_predict_ = 0;         // blocks to be predicted again, the newest last

@@ -39,11 +39,17 @@ struct VehicleMistake {
   double stddev = 0.0;       ///< of size
   double unexplained = 0.0;  ///< share of the tops' motion that the file as it stands leaves [-]
 
-  bool isDelay() const;
+  bool isDelay() const {
+    return kind == Kind::kWheelDelay || kind == Kind::kTopDelay || kind == Kind::kTopsDelay || kind == Kind::kBodyDelay;
+  }
 
   /// @return true: what is estimated of any strut with this file is wrong. A delay is among what is estimated, and what
-  /// no mistake explains is an error of the model (BodyFit).
-  bool isContradiction() const;
+  /// no mistake explains is an error of the model (fitRigidBody).
+  bool isContradiction() const {
+    const bool is_mistake =
+        kind != Kind::kNone && kind != Kind::kTooLittle && kind != Kind::kAlike && kind != Kind::kOthers;
+    return is_mistake && !isDelay();  // which the estimate finds
+  }
 };
 
 /// Products of all wheels' and tops' spectra, summed over blocks, by which every mistake is judged: for each, the rows
@@ -53,7 +59,7 @@ class VehicleClaims {
  public:
   /// @param s  of the bins of a block [rad/s].
   /// @param most_blocks  that are added.
-  /// @param gyro_died  after them, by GyroCheck.
+  /// @param gyro_died  after them, by VehicleSpectra.
   VehicleClaims(const VehicleChannels& vehicle, const Eigen::ArrayXcd& s, int most_blocks, bool gyro_died);
 
   /// Adds the next older block.
@@ -90,7 +96,9 @@ class VehicleClaims {
     std::vector<double> sizes;  ///< to begin with; one: there are no others
     std::function<void(double size, Mapping& mapping)> apply;
   };
-  double noiseShare() const;
+  /// @return the share of unrelated noise that wheels and known forces, as so many columns, explain by chance in so
+  /// many blocks.
+  double noiseShare() const { return static_cast<double>(n_ + forces_) / blocks_; }
   bool begins();
   void takeBin(std::size_t bin);
   void judgeAsFiled();

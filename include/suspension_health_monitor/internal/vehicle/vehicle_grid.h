@@ -44,7 +44,9 @@ class VehicleGrid {
   }
 
   /// After the last reading: what waits is led on.
-  void finish();
+  void finish() {
+    if (!waiting_.empty()) turnUpright(levelSince(0));
+  }
 
   const StreamGrid& streams() const { return grid_; }
 
@@ -70,6 +72,8 @@ class VehicleGrid {
   std::uint64_t numInstants() const { return num_instants_; }
 
  private:
+  using Place = VehicleStreams::Place;
+
   void lead(const VehicleStreams::Sensor& sensor, const double* values, Stamp taken);
   void give(VehicleReading reading);
   void take(const GridInstant& instant);

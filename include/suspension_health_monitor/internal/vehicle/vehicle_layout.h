@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -44,11 +45,16 @@ struct VehicleLayout {
   static VehicleLayout ofOneStrut(bool has_road);
 
   /// @return true if transforms are to tell where a strut is.
-  bool hasFrames() const;
+  bool hasFrames() const {
+    return std::any_of(struts.begin(), struts.end(), [](const Strut& strut) { return strut.frame.has_value(); });
+  }
 
   /// Turns the axes of all positions.
   /// @param mount  into which: of BodyLevel.
-  void turn(const Eigen::Matrix3d& mount);
+  void turn(const Eigen::Matrix3d& mount) {
+    for (Strut& strut : struts)
+      if (strut.position) Eigen::Map<Eigen::Vector3d>(strut.position->data()).applyOnTheLeft(mount);
+  }
 };
 
 /// Takes the settings of a vehicle file out of `values`: `body_imu`, `struts/NAME/...` and `known_forces/NAME/...`.
@@ -61,7 +67,7 @@ void requireApart(const VehicleLayout& layout);
 /// The streams of a vehicle, numbered: those of the body's IMU if a strut needs it, then of every strut its sprung IMU,
 /// if it has one, and its unsprung IMU, then that of the road, then the known forces, those of one topic after another.
 struct VehicleStreams {
-  enum class Place { kBody, kSprung, kUnsprung, kForce, kRoad };
+  using Place = VehicleReading::Sensor;
 
   /// An IMU, or what measures known forces.
   struct Sensor {
@@ -85,11 +91,11 @@ struct VehicleStreams {
   std::vector<Sensor> sensors;  ///< the IMUs, then the others
 
   /// @return the sensor that is a strut's body IMU: its own, or that of the body.
-  std::size_t bodyImuOf(std::size_t strut) const;
+  std::size_t bodyImuOf(std::size_t strut) const {
+    const std::optional<std::size_t>& own = channels.struts[strut].sprung;
+    return options[own ? *own : *channels.body_imu].sensor;
+  }
   std::size_t wheelImuOf(std::size_t strut) const { return options[channels.struts[strut].unsprung].sensor; }
-
- private:
-  void addForces(const std::vector<VehicleLayout::KnownForce>& forces);
 };
 
 }  // namespace suspension_health_monitor

@@ -88,7 +88,7 @@ struct VehicleChannels {
 
 /// What one sensor of a vehicle read at one time.
 struct VehicleReading {
-  enum class Sensor { kWheel, kTop, kBody, kForce };
+  enum class Sensor { kUnsprung, kSprung, kBody, kForce, kRoad };
 
   Sensor sensor;
   std::size_t place;  ///< of the strut, or of the known force; of the body's IMU 0
@@ -101,7 +101,7 @@ struct VehicleReading {
 /// What an accelerometer of a strut alone read [m/s^2].
 inline VehicleReading readingOf(Side side, Stamp stamp, double acceleration) {
   using Sensor = VehicleReading::Sensor;
-  return {side == Side::kUnsprung ? Sensor::kWheel : Sensor::kTop, 0, stamp, {acceleration}};
+  return {side == Side::kUnsprung ? Sensor::kUnsprung : Sensor::kSprung, 0, stamp, {acceleration}};
 }
 
 /// Calls take(reading) for every reading of an instant, of struts that have two accelerometers each.
@@ -111,8 +111,8 @@ void forReadings(const VehicleSample& sample, const Take& take) {
     take(VehicleReading{sensor, static_cast<std::size_t>(place), sample.stamp, {value}});
   };
   for (Eigen::Index i = 0; i < sample.sprung.size(); ++i) {
-    give(VehicleReading::Sensor::kTop, i, sample.sprung[i]);
-    give(VehicleReading::Sensor::kWheel, i, sample.unsprung[i]);
+    give(VehicleReading::Sensor::kSprung, i, sample.sprung[i]);
+    give(VehicleReading::Sensor::kUnsprung, i, sample.unsprung[i]);
   }
   for (Eigen::Index k = 0; k < sample.forces.size(); ++k) give(VehicleReading::Sensor::kForce, k, sample.forces[k]);
 }
