@@ -30,20 +30,17 @@ json jsonOf(const std::vector<Item>& items) {
 }
 
 template <class Value>
-void addTo(json& into, const char* name, const Value& value) {
-  into[name] = jsonOf(value);
-}
-
-template <class Value>
-void addTo(json& into, const char* name, const std::optional<Value>& value) {
-  if (value) addTo(into, name, *value);
+json jsonOf(const std::optional<Value>& value) {
+  return value ? jsonOf(*value) : json();
 }
 
 template <class Value>
 json jsonOf(const Value& value) {
   if constexpr (Fields<Value>::value) {
     json into;
-    Fields<Value>::forEach([&](const char* name, auto field) { addTo(into, name, value.*field); });
+    Fields<Value>::forEach([&](const char* name, auto field) {
+      if (json its = jsonOf(value.*field); !its.is_null()) into[name] = std::move(its);
+    });
     return into;
   } else if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
     json rows = json::array();
