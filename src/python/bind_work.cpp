@@ -31,7 +31,7 @@ Identification identifyArrays(const Recordings& recordings, const OptionMap& key
   const double period = periodOf(recordings, options);
   const Stamp shift = shiftOf(recordings);
   options.sample_period = period;
-  options.tyre = recordings.front().streams().size() > indexOf(Side::kRoad);
+  options.tyre = recordings.front().streams.size() > indexOf(Side::kRoad);
   const bool is_given = options.integration_horizon.has_value();
   if (!is_given)
     if (const auto rough = roughStrut(toDrives(recordings, options, period, shift, work), period))

@@ -23,15 +23,15 @@ std::optional<double> spacingOf(const Recordings& recordings) {
 std::size_t sizeOf(const Recordings& recordings) {
   std::size_t sum = 0;
   for (const Recording& recording : recordings)
-    for (const auto& [stamps, values] : recording.streams()) sum += static_cast<std::size_t>(stamps.size());
+    for (const auto& [stamps, values] : recording.streams) sum += static_cast<std::size_t>(stamps.size());
   return sum;
 }
 
 std::vector<BodyMotion> Recording::bodyMotion(Stamp shift) const {
   std::vector<BodyMotion> motion;
-  if (!across_) return motion;
-  const auto rows = across_->unchecked<2>();
-  const std::int64_t* stamps = streams_.front().first.data();
+  if (!across) return motion;
+  const auto rows = across->unchecked<2>();
+  const std::int64_t* stamps = streams.front().first.data();
   std::optional<Stamp> last;
   for (Py_ssize_t k = 0; k < rows.shape(0); ++k) {
     const Stamp stamp = Stamp(stamps[k]) + shift;
@@ -46,7 +46,7 @@ Stamp shiftOf(const Recordings& recordings) {
   constexpr Stamp kFirst(1);
   Stamp earliest = kFirst;
   for (const Recording& recording : recordings)
-    for (const auto& [stamps, values] : recording.streams())
+    for (const auto& [stamps, values] : recording.streams)
       if (stamps.size() > 0) earliest = std::min(earliest, Stamp(*stamps.data()));
   return kFirst - earliest;
 }

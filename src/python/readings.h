@@ -20,22 +20,24 @@ namespace suspension_health_monitor {
 using ReadingStream = std::pair<py::array_t<std::int64_t>, py::array_t<double>>;
 
 /// Arrays of one drive. To be made and destroyed with the interpreter's lock; read without.
-class Recording {
- public:
-  /// @param arrays  stamps and values of the body's, the wheel carrier's and, if there is one, the road's sensor, by
-  /// Side.
-  /// @param across  a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, in the strut's frame, at the body's stamps.
-  Recording(std::vector<ReadingStream> arrays, std::optional<py::array_t<double>> across)
-      : streams_(std::move(arrays)), across_(std::move(across)) {}
+struct Recording {
+  std::vector<ReadingStream> streams;  ///< by Side: of body, wheel carrier and, if there is one, the road
 
-  /// @return by Side.
-  const std::vector<ReadingStream>& streams() const { return streams_; }
+  /// a_x, a_y [m/s^2], w_x, w_y [rad/s] of the body's IMU, in the strut's frame, at the body's stamps.
+  std::optional<py::array_t<double>> across;
 
   /// Calls take(side, stamp, value) with all readings in the order of their stamps; at the same time the body's first.
   template <class Take>
   void forEach(const Take& take) const {
+    struct Cursor {
+      const std::int64_t* stamp;
+      const double* value;
+      const std::int64_t* end;
+
+      bool isAtEnd() const { return stamp == end; }
+    };
     std::vector<Cursor> cursors;
-    for (const auto& [stamps, values] : streams_)
+    for (const auto& [stamps, values] : streams)
       cursors.push_back({stamps.data(), values.data(), stamps.data() + stamps.size()});
     while (true) {
       const auto next = std::min_element(cursors.begin(), cursors.end(), [](const Cursor& a, const Cursor& b) {
@@ -48,18 +50,6 @@ class Recording {
 
   /// @return what the body's IMU measures across the strut; empty: nothing.
   std::vector<BodyMotion> bodyMotion(Stamp shift) const;
-
- private:
-  struct Cursor {
-    const std::int64_t* stamp;
-    const double* value;
-    const std::int64_t* end;
-
-    bool isAtEnd() const { return stamp == end; }
-  };
-
-  std::vector<ReadingStream> streams_;
-  std::optional<py::array_t<double>> across_;
 };
 
 using Recordings = std::vector<Recording>;

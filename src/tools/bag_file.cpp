@@ -43,7 +43,7 @@ BagFile::BagFile(const std::string& path) : path_(path) {
 }
 
 void BagFile::readContents(std::uint64_t position, std::uint32_t num_connections, std::uint32_t num_chunks) {
-  seek(position);
+  file_.seek(position);
   BagBytes bytes;
   readBytes(size_ - position, "table of contents", bytes);
   std::string_view rest = bytes.view();
@@ -81,7 +81,8 @@ void BagFile::read(const BagChunk& chunk, ChunkContents& contents) {
 }
 
 void BagFile::readChunkBytes(const BagChunk& chunk, BagBytes& bytes) {
-  seek(chunk.position);
+  if (chunk.position > size_) throw InputError(path_ + ": is cut off, or damaged (rosbag reindex saves what is left)");
+  file_.seek(chunk.position);
   readBlock("chunk header", header_);
   const BagRecord record{header_.view(), {}};
   const std::string compression = text(findField(record.header, rosbag::COMPRESSION_FIELD_NAME));
@@ -118,11 +119,6 @@ void BagFile::parseMessages(const BagChunk& chunk, std::string_view bytes, std::
 
 void BagFile::resize(BagBytes& bytes, std::uint64_t size) const {
   if (!bytes.resize(size)) throw InputError(path_ + ": does not fit into the memory of this machine");
-}
-
-void BagFile::seek(std::uint64_t position) {
-  if (position > size_) throw InputError(path_ + ": is cut off, or damaged (rosbag reindex saves what is left)");
-  file_.seek(position);
 }
 
 void BagFile::readBytes(std::uint64_t size, const char* what, BagBytes& bytes) {

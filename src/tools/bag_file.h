@@ -148,7 +148,6 @@ class BagFile {
   void readChunkBytes(const BagChunk& chunk, BagBytes& bytes);
   void parseMessages(const BagChunk& chunk, std::string_view bytes, std::vector<BagMessage>& messages) const;
   void resize(BagBytes& bytes, std::uint64_t size) const;
-  void seek(std::uint64_t position);
   void readBytes(std::uint64_t size, const char* what, BagBytes& bytes);
   void readBlock(const char* what, BagBytes& bytes);  // a length and that many bytes
   InputError damagedChunk() const;

@@ -34,35 +34,6 @@ json couplingJson(const std::vector<std::vector<double>>& ratios, const std::vec
   return result;
 }
 
-json barsJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  json bars = json::array();
-  for (const AntiRollBarFound& bar : coupling.bars)
-    bars.push_back(
-        {{"struts", {names[bar.first], names[bar.second]}},
-         {"stiffness_to_mass",
-          {{names[bar.first], bar.first_stiffness_to_mass}, {names[bar.second], bar.second_stiffness_to_mass}}}});
-  return bars;
-}
-
-json forcesJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  json forces = json::object();
-  for (const KnownForceCoefficients& force : coupling.forces)
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      forces[force.name]["coefficients"][names[i]] = force.values[i];
-      forces[force.name]["stddevs"][names[i]] = force.stddevs[i];
-    }
-  return forces;
-}
-
-void printForces(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  for (const KnownForceCoefficients& force : coupling.forces) {
-    std::printf("one unit of %s accelerates the tops by [m/s^2]:", force.name.c_str());
-    for (std::size_t i = 0; i < names.size(); ++i)
-      std::printf("%s %s %.4g +- %.2g", i > 0 ? "," : "", names[i].c_str(), force.values[i], force.stddevs[i]);
-    std::printf("\n");
-  }
-}
-
 }  // namespace
 
 void printTable(const std::vector<MonitorReport>& reports) {
@@ -153,7 +124,12 @@ json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
 }
 
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  printForces(coupling, names);
+  for (const KnownForceCoefficients& force : coupling.forces) {
+    std::printf("one unit of %s accelerates the tops by [m/s^2]:", force.name.c_str());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      std::printf("%s %s %.4g +- %.2g", i > 0 ? "," : "", names[i].c_str(), force.values[i], force.stddevs[i]);
+    std::printf("\n");
+  }
   if (names.size() < 2) return;
   std::printf("how much of what a strut does to its own top reaches the others:\n%16s", "moved by");
   for (const std::string& name : names) std::printf("  %14s", name.c_str());
@@ -177,12 +153,22 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
 json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps) {
   json whole{{"silent", gaps.toJson()}};
   if (vehicle.isStrutAlone()) return whole;
-  whole["struts"] = json::object();
-  whole["coupling"] = couplingJson(coupling.ratios, vehicle.names);
-  whole["coupling_stddevs"] = couplingJson(coupling.stddevs, vehicle.names);
-  whole["anti_roll_bars"] = barsJson(coupling, vehicle.names);
-  whole["known_forces"] = forcesJson(coupling, vehicle.names);
+  const std::vector<std::string>& names = vehicle.names;
+  whole["struts"] = whole["known_forces"] = json::object();
+  whole["coupling"] = couplingJson(coupling.ratios, names);
+  whole["coupling_stddevs"] = couplingJson(coupling.stddevs, names);
   whole["model_error"] = coupling.model_error;
+  whole["anti_roll_bars"] = json::array();
+  for (const AntiRollBarFound& bar : coupling.bars)
+    whole["anti_roll_bars"].push_back(
+        {{"struts", {names[bar.first], names[bar.second]}},
+         {"stiffness_to_mass",
+          {{names[bar.first], bar.first_stiffness_to_mass}, {names[bar.second], bar.second_stiffness_to_mass}}}});
+  for (const KnownForceCoefficients& force : coupling.forces)
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      whole["known_forces"][force.name]["coefficients"][names[i]] = force.values[i];
+      whole["known_forces"][force.name]["stddevs"][names[i]] = force.stddevs[i];
+    }
   return whole;
 }
 
