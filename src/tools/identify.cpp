@@ -1,68 +1,114 @@
 #include <cmath>
 #include <cstdio>
-#include <deque>
 
 #include "command.h"
 #include "csv_table.h"
-#include "curve_output.h"
 #include "html_page.h"
+#include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/math/digest.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
+
+SHM_FIELDS(CurveChange::Range, from, to, softer)
+
 namespace {
 
 constexpr std::size_t kTableLines = 12;
 
-/// The table of --csv: one line per regression row. The comparison of a row's sample comes some samples after the row:
-/// lines wait for it, and go without when their series ends before.
-class RowTable : CsvTable {
- public:
-  /// As CsvTable.
-  RowTable(std::FILE* out, const AskedVehicle& vehicle)
-      : CsvTable(out, vehicle,
-                 "ls_damping_to_mass,ls_stiffness_to_mass,la_damping_to_mass,la_stiffness_to_mass,"
-                 "measured,predicted,residual,estimate_damping_to_mass,estimate_stiffness_to_mass,"
-                 "estimate_damping_to_mass_stddev,estimate_stiffness_to_mass_stddev"),
-        waiting_(vehicle.names.size()) {}
-
-  void add(std::size_t strut, const MonitorReport& report) {
-    if (!isOf(strut)) return;
-    std::deque<MonitorReport>& waiting = waiting_[strut];
-    const bool clock_went_back = !waiting.empty() && report.stamp < waiting.back().stamp;
-    while (clock_went_back && !waiting.empty()) write(strut, std::nullopt);
-    if (report.has_row) waiting.push_back(report);
-    const ComparisonReport& comparison = report.comparison;
-    while (comparison.has_sample && !waiting.empty() && waiting.front().stamp <= comparison.stamp)
-      write(strut, waiting.front().stamp == comparison.stamp ? comparison.predicted : std::nullopt);
+/// Reads bags as drives and fits curves, from the linear struts that identify found.
+/// @param found  by strut.  @return likewise; empty curves where nothing was found, or is not asked for.
+std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<IdentifyResult>& found) {
+  TopicGaps gaps(options.settings.common.shell.input_timeout);
+  const SeparatedVehicle own =
+      separateVehicle(readDrives(options, gaps).drives, options.vehicle.names, options.period(), {});
+  std::vector<StrutCurves> curves(found.size());
+  for (const std::size_t i : options.vehicle.asked) {
+    const StrutEstimate& linear = found[i].estimate;
+    if (i < own.struts.size() && linear.damping_to_mass > 0.0 && linear.stiffness_to_mass > 0.0)
+      curves[i] = strutCurves(own.struts[i], {linear.damping_to_mass, linear.stiffness_to_mass, {}, {}},
+                              options.period(), own.coupling.modelErrorOf(i));
   }
+  return curves;
+}
 
-  /// No more comparisons will come.
-  void finish() {
-    for (std::size_t strut = 0; strut < waiting_.size(); ++strut)
-      while (!waiting_[strut].empty()) write(strut, std::nullopt);
+json toJson(const std::optional<double>& change, double stddev) {
+  if (!change) return nullptr;
+  const double half = kNinetyPercent * stddev, log = std::log1p(*change);
+  return {{"change", *change}, {"interval", {std::expm1(log - half), std::expm1(log + half)}}};
+}
+
+/// Compares what is known of a strut from one drive with what is known of it from another.
+/// @param bag  name of that of `then`.
+json against(const std::string& bag, const IdentifyResult& now, const StrutCurves& curves_now,
+             const IdentifyResult& then, const StrutCurves& curves_then, double payload_range) {
+  json result{{"bag", bag}};
+  addCurves(curves_then, result);
+  const std::optional<StrutOfDrive> today = strutOf(now), before = strutOf(then);
+  if (!today || !before) {
+    result["change"] =
+        "cannot be compared with " + bag + ": no valid estimate of " + (before ? "this drive" : "that drive");
+    return result;
   }
+  const DriveChange change = changeOf(today->strut, curves_now, before->strut, curves_then, payload_range);
+  const StrutChange& strut = change.strut;
+  result.update({{"change", describe(change, bag)},
+                 {"damping", toJson(strut.damping, strut.damping_stddev)},
+                 {"stiffness", toJson(strut.stiffness, strut.stiffness_stddev)},
+                 {"payload_change", strut.payload ? json(*strut.payload) : json()},
+                 {"damper_differences", jsonOf(change.damper.ranges)},
+                 {"spring_differences", jsonOf(change.spring.ranges)}});
+  return result;
+}
 
- private:
-  void write(std::size_t strut, const std::optional<double>& predicted) {
-    const MonitorReport row = waiting_[strut].front();
-    waiting_[strut].pop_front();
-    const double prediction = predicted.value_or(std::nan(""));
-    std::fprintf(beginLine(strut, row.stamp), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
-                 row.ls.damping_to_mass, row.ls.stiffness_to_mass, row.la.damping_to_mass, row.la.stiffness_to_mass,
-                 row.measured, prediction, row.measured - prediction, row.estimate.damping_to_mass,
-                 row.estimate.stiffness_to_mass, row.estimate.damping_to_mass_stddev,
-                 row.estimate.stiffness_to_mass_stddev);
+/// Identifies the bag of --against with all other options as they are, and compares every strut with itself there.
+/// @param now, curves  by strut, of the drives that it is compared with.
+/// @return by strut `bag`, its curves there, `change` in a sentence and, with valid estimates of both, the numbers of
+/// it; empty if --against is not given.
+/// @throws std::invalid_argument, InputError, TooLittleError  as identify, with the bag's name before.
+std::vector<json> againstOther(po::variables_map values, const std::vector<IdentifyResult>& now,
+                               const std::vector<StrutCurves>& curves) {
+  std::vector<json> changes;
+  if (values.count(kAgainst) == 0) return changes;
+  const std::vector<std::string> bags{values[kAgainst].as<std::string>()};
+  values.at("bag").value() = bags;
+  const std::string bag = fileNames(bags).front();
+  try {
+    const BagOptions options = readBagOptions(values);
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), false);
+    recorded.read();
+    const std::vector<IdentifyResult> then = recorded.identified().struts;
+    const std::vector<StrutCurves> curves_then = curvesOfBags(options, then);
+    for (std::size_t i = 0; i < now.size(); ++i)
+      changes.push_back(
+          against(bag, now[i], curves[i], then[i], curves_then[i], options.settings.struts[i].monitor.payload_range));
+  } catch (const TooLittleError& error) {
+    throw TooLittleError(std::string("--") + kAgainst + ' ' + bag + ": " + error.what());
   }
+  return changes;
+}
 
-  std::vector<std::deque<MonitorReport>> waiting_;  // by strut, with a row
-};
+/// What the page of curves is made of.
+/// @param values  of the command that makes it.  @param whole  what was found, as --json has it.
+json curveFindings(const po::variables_map& values, const BagOptions& options, json whole) {
+  const AskedVehicle& vehicle = options.vehicle;
+  json struts = json::array();
+  for (const std::size_t i : vehicle.asked) {
+    const json& its = vehicle.resultsOf(i, whole);
+    struts.push_back({{"strut", vehicle.names[i]}, {"against", its.value("against", json())}});
+    for (const char* curve : {"damper_curve", "spring_curve"}) struts.back()[curve] = its[curve];
+  }
+  return {{"struts", shortened(struts)},
+          {"source", join(fileNames(options.bags.paths))},
+          {"origin", originOf(values, namesOf(options.bags.topics))}};
+}
 
 /// What is known at the end.
 struct Found {

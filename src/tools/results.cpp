@@ -1,5 +1,6 @@
 #include "results.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -32,6 +33,33 @@ json couplingJson(const std::vector<std::vector<double>>& ratios, const std::vec
     for (std::size_t j = 0; j < names.size(); ++j)
       if (i != j) result[names[i]][names[j]] = ratios[i][j];
   return result;
+}
+
+constexpr double kRows = 6.0;  // of a table, or up to twice as many
+constexpr int kTitleWidth = 15;
+
+/// @return 1, 2 or 5 times a power of ten, not above x > 0.
+double roundedDown(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  return power * (x >= 5.0 * power ? 5.0 : x >= 2.0 * power ? 2.0 : 1.0);
+}
+
+/// @param shown  of the variable, in SI.
+void print(const char* title, const ForceCurve& curve, double shown, const std::optional<double>& mass) {
+  if (curve.at.empty()) return void(std::printf("%s: the drives do not tell\n", title));
+  std::printf("%-*s  %-20s  rebound, force [%s]\n", kTitleWidth, title, "compression", mass ? "N" : "m/s^2");
+  const double most = std::max(-curve.at.front(), curve.at.back()), step = roundedDown(most / kRows);
+  const auto entry = [&](double x) {
+    return curve.covers(x) ? formatted("%9.4g +- %.2g", mass.value_or(1.0) * curve.forceAt(x),
+                                       mass.value_or(1.0) * kNinetyPercent * curve.stddevAt(x))
+                           : std::string("        -");
+  };
+  for (int i = 1; i * step <= most; ++i)
+    std::printf("%*.4g  %-20s  %s\n", kTitleWidth, i * step / shown, entry(i * step).c_str(), entry(-i * step).c_str());
+}
+
+json toJson(const char* variable, const ForceCurve& curve) {
+  return {{variable, curve.at}, {"force", curve.force}, {"stddev", curve.stddev}};
 }
 
 }  // namespace
@@ -148,6 +176,16 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
   for (const AntiRollBarFound& bar : coupling.bars)
     std::printf("anti-roll bar between %s and %s: stiffness/mass %.4g and %.4g 1/s^2\n", names[bar.first].c_str(),
                 names[bar.second].c_str(), bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
+}
+
+void printCurves(const StrutCurves& curves, const std::optional<double>& mass) {
+  print("damper at [m/s]", curves.damper.absolute(), 1.0, mass);
+  print("spring at [mm]", curves.spring.absolute(), 1e-3, mass);
+}
+
+void addCurves(const StrutCurves& curves, json& into) {
+  into["damper_curve"] = toJson("velocity", curves.damper.absolute());
+  into["spring_curve"] = toJson("travel", curves.spring.absolute());
 }
 
 json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps) {
