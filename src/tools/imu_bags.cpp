@@ -114,49 +114,38 @@ OpenChunk readChunk(BagFile& file, const WantedTopics& wanted, const Range& rang
 
 /// Delivers the messages of one bag by recording time. Its chunks are opened in the order in which they begin and
 /// kept as long as they have messages that are later than the beginning of the next one.
-class Delivery {
- public:
-  Delivery(const TopicSinks& take, TopicGaps* gaps) : take_(take), gaps_(gaps) {}
-
-  /// @return storage of a chunk that is done, to be used again.
-  OpenChunk spare() { return std::exchange(spare_, {}); }
-
-  void open(OpenChunk chunk) {
-    if (!chunk.isDone()) open_.push_back(std::move(chunk));
-  }
+struct Delivery {
+  const TopicSinks& take;
+  TopicGaps* gaps;
+  std::vector<OpenChunk> open = {};  // as many as overlap in time, mostly one or two
+  OpenChunk spare = {};              // storage of a chunk that is done, to be used again
 
   /// @return false if no more messages are wanted.
   bool deliverBefore(std::uint64_t time) {
-    while (!open_.empty()) {
-      const auto earliest = std::min_element(open_.begin(), open_.end(), isEarlier);
+    while (!open.empty()) {
+      const auto earliest = std::min_element(open.begin(), open.end(), isEarlier);
       if (earliest->message().time >= time) break;
       if (!deliver(earliest->message())) return false;
       ++earliest->next;
       if (!earliest->isDone()) continue;
-      spare_ = std::move(*earliest);
-      open_.erase(earliest);
+      spare = std::move(*earliest);
+      open.erase(earliest);
     }
     return true;
   }
 
- private:
-  bool deliver(const Message& message) {
+  bool deliver(const Message& message) const {
     Interruption::check();
     const Stamp recorded(static_cast<Stamp::rep>(message.time));
     if (const auto* temperature = std::get_if<sensor_msgs::Temperature>(&message.body))
-      return take_.temperature(message.place, *temperature, recorded);
-    const auto give = [&](const auto& reading, const auto& take) {
-      if (gaps_ != nullptr) gaps_->note(message.place, toStamp(reading.header.stamp));
-      return take(message.place, reading, recorded);
+      return take.temperature(message.place, *temperature, recorded);
+    const auto give = [&](const auto& reading, const auto& sink) {
+      if (gaps != nullptr) gaps->note(message.place, toStamp(reading.header.stamp));
+      return sink(message.place, reading, recorded);
     };
-    if (const auto* imu = std::get_if<sensor_msgs::Imu>(&message.body)) return give(*imu, take_.imu);
-    return give(std::get<geometry_msgs::WrenchStamped>(message.body), take_.wrench);
+    if (const auto* imu = std::get_if<sensor_msgs::Imu>(&message.body)) return give(*imu, take.imu);
+    return give(std::get<geometry_msgs::WrenchStamped>(message.body), take.wrench);
   }
-
-  const TopicSinks& take_;
-  TopicGaps* gaps_;
-  std::vector<OpenChunk> open_;  // as many as overlap in time, mostly one or two
-  OpenChunk spare_;              // storage of a chunk that is done
 };
 
 bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
@@ -168,13 +157,13 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
                chunks.end());
   const WantedTopics wanted = findTopics(file, bags, take.temperature != nullptr);
   ChunkContents contents;  // of the newest chunk
-  Delivery delivery(take, bags.gaps);
+  Delivery delivery{take, bags.gaps};
   Progress progress("reading " + file.path(), static_cast<double>(chunks.size()));
   // While the messages of a chunk are used, another thread reads and decodes the next, which takes a quarter of the
   // time of `identify`. Without that thread it is done when the chunk is wanted.
   const std::launch launch = bags.reads_ahead ? std::launch::async : std::launch::deferred;
   const auto begin = [&](std::size_t at) {
-    return std::async(launch, [&, &coming = chunks[at], chunk = delivery.spare()]() mutable {
+    return std::async(launch, [&, &coming = chunks[at], chunk = std::exchange(delivery.spare, {})]() mutable {
       return readChunk(file, wanted, range, coming, contents, std::move(chunk));
     });
   };
@@ -185,7 +174,7 @@ bool readBag(BagFile& file, const ImuBags& bags, const TopicSinks& take) {
     if (!delivery.deliverBefore(chunks[i].start)) return false;
     OpenChunk chunk = next.get();
     if (i + 1 < chunks.size()) next = begin(i + 1);
-    delivery.open(std::move(chunk));
+    if (!chunk.isDone()) delivery.open.push_back(std::move(chunk));
   }
   return delivery.deliverBefore(std::numeric_limits<std::uint64_t>::max());
 }
