@@ -1,7 +1,6 @@
 #include <cstdio>
 
 #include "../ros/model_file.h"
-#include "checked_imus.h"
 #include "command.h"
 #include "long_work.h"
 #include "recorded_drives.h"

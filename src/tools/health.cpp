@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "checked_imus.h"
 #include "command.h"
 #include "csv_table.h"
 #include "html_page.h"

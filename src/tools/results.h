@@ -102,6 +102,9 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
 /// another, with `struts` to be filled.
 json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps);
 
+/// What `check` says of the IMUs that a command has read, as its JSON has it: for the first box of every page.
+json dataJson(const BagOptions& options);
+
 /// How the body's mass is spread.
 void printBody(const BodyInertiaResult& found);
 json toJson(const BodyInertiaResult& found);
