@@ -3,7 +3,6 @@
 
 #include "bindings.h"
 #include "options.h"
-#include "readings.h"
 #include "results.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/diagnose.h"
