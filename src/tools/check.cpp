@@ -31,6 +31,13 @@ std::vector<BagTopic> allTopicsOf(const std::string& path) {
   return mapped(names, [](const std::string& name) { return BagTopic{name, "the bag"}; });
 }
 
+/// @return the place of the largest component, of either sign: 0 x, 1 y, 2 z.
+int largestOf(const Eigen::Vector3d& v) {
+  int axis = 0;
+  v.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
 /// What the command check knows of a topic.
 struct CheckedImu {
   std::string topic;
@@ -39,12 +46,7 @@ struct CheckedImu {
   bool by_gravity = false;                        ///< else `up` is the axis that moves most, of either sign
   bool has_gyro = false;
 
-  /// @return 0 x, 1 y, 2 z.
-  int axis() const {
-    int axis = 0;
-    up.cwiseAbs().maxCoeff(&axis);
-    return axis;
-  }
+  int axis() const { return largestOf(up); }
   /// @return one of kAxisNames.
   std::string upAxis() const { return (up[axis()] < 0.0 ? "-" : "") + std::string(1, "xyz"[axis()]); }
 };
@@ -60,7 +62,17 @@ struct CheckedImus {
   std::string faultOf(std::size_t i) const {
     return describeFault(imus[i].survey, imus[i].axis(), std::hypot(moved(i, kBands[1]), moved(i, kBands[2])));
   }
-  std::string sentenceOf(const BodyOverWheel& pair) const;
+  std::string sentenceOf(const BodyOverWheel& pair) const {
+    std::string text = imus[pair.body].topic + " moves like the body over wheel " + imus[pair.wheel].topic +
+                       formatted(": %.0f %% of its motion by all wheels found", 100.0 * pair.explained);
+    if (pair.is_own)
+      text += formatted(", bounce about %.2f Hz, damping ratio about %.2f, delay %+.1f ms",
+                        std::sqrt(pair.stiffness_to_mass) / (2.0 * M_PI),
+                        pair.damping_to_mass / (2.0 * std::sqrt(pair.stiffness_to_mass)), 1e3 * pair.delay);
+    if (pair.is_reversed)
+      text += "; gravity says that both point up, their motion that one is reversed: its sign is wrong";
+    return text;
+  }
   json toJson() const;
 
   std::vector<CheckedImu> imus;
@@ -68,7 +80,13 @@ struct CheckedImus {
   std::vector<BodyOverWheel> pairs;
 
  private:
-  std::size_t placeOf(const std::string& topic);
+  std::size_t placeOf(const std::string& topic) {
+    const auto found =
+        std::find_if(imus.begin(), imus.end(), [&](const CheckedImu& each) { return each.topic == topic; });
+    const auto place = static_cast<std::size_t>(found - imus.begin());
+    if (place == imus.size()) imus.push_back({topic});
+    return place;
+  }
   void orient();
   double moved(std::size_t i, const double (&band)[2]) const { return spectra->rms(i, imus[i].up, band[0], band[1]); }
 
@@ -117,14 +135,6 @@ CheckedImus::CheckedImus(const ImuBags& bags, const std::vector<BagTopic>& asked
   orient();
 }
 
-std::size_t CheckedImus::placeOf(const std::string& topic) {
-  const auto found =
-      std::find_if(imus.begin(), imus.end(), [&](const CheckedImu& each) { return each.topic == topic; });
-  const auto place = static_cast<std::size_t>(found - imus.begin());
-  if (place == imus.size()) imus.push_back({topic});
-  return place;
-}
-
 void CheckedImus::orient() {
   std::vector<double> rates;
   std::vector<bool> has_gyro;
@@ -136,10 +146,8 @@ void CheckedImus::orient() {
     Eigen::Vector3d moves;
     for (int axis = 0; axis < 3; ++axis)
       moves[axis] = spectra->rms(i, Eigen::Vector3d::Unit(axis), kBands[1][0], kBands[2][1]);
-    int axis = 0;
-    moves.maxCoeff(&axis);
     imu.up = gravity ? (gravity->is_negative ? -1.0 : 1.0) * Eigen::Vector3d::Unit(gravity->axis)
-                     : Eigen::Vector3d(Eigen::Vector3d::Unit(axis));
+                     : Eigen::Vector3d(Eigen::Vector3d::Unit(largestOf(moves)));
     const bool is_known = imu.survey.isKnown() && spectra->blocks(i) >= kFewestBlocks;
     ups.push_back(is_known ? imu.up : Eigen::Vector3d::Zero());
     rates.push_back(is_known ? imu.survey.rate() : HUGE_VAL);
@@ -159,18 +167,6 @@ void CheckedImus::orient() {
     imus[pair.wheel].up *= -1.0;
     pair.is_reversed = false;
   }
-}
-
-std::string CheckedImus::sentenceOf(const BodyOverWheel& pair) const {
-  std::string text = imus[pair.body].topic + " moves like the body over wheel " + imus[pair.wheel].topic +
-                     formatted(": %.0f %% of its motion by all wheels found", 100.0 * pair.explained);
-  if (pair.is_own)
-    text += formatted(", bounce about %.2f Hz, damping ratio about %.2f, delay %+.1f ms",
-                      std::sqrt(pair.stiffness_to_mass) / (2.0 * M_PI),
-                      pair.damping_to_mass / (2.0 * std::sqrt(pair.stiffness_to_mass)), 1e3 * pair.delay);
-  if (pair.is_reversed)
-    text += "; gravity says that both point up, their motion that one is reversed: its sign is wrong";
-  return text;
 }
 
 json CheckedImus::toJson() const {
