@@ -118,11 +118,20 @@ struct Found {
       const PipelineOptions& strut = options.settings.struts[i];
       changes.push_back(describeChange(vehicle.struts[i], knownHealthy(healthy[i], strut), strut.monitor));
     }
+    for (const std::size_t i : options.vehicle.asked) {
+      const std::string lack = whyNotNominal(vehicle.struts[i], options.settings.struts[i].monitor);
+      if (lack.empty())
+        nominal.emplace(options.vehicle.names[i], *strutOf(vehicle.struts[i]));
+      else
+        lacks.push_back(options.vehicle.prefix(i, ": ") + lack);
+    }
     if (changes.size() > 1) body = inertiaOf(recorded.monitor().body(), recorded.monitor().vehicle()->places());
   }
 
   VehicleIdentification vehicle;
-  std::vector<std::string> changes;  // by strut, against the healthy one
+  std::vector<std::string> changes;             // by strut, against the healthy one
+  std::map<std::string, StrutOfDrive> nominal;  // the struts that may be what health is judged by
+  std::vector<std::string> lacks;               // what is the matter with the others
   std::optional<BodyInertiaResult> body;
   std::vector<StrutCurves> curves;  // by strut, if they are asked for
   std::vector<json> against;        // by strut, if there is another drive
@@ -217,22 +226,6 @@ void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyRes
                        describeRejected(recorded.pipeline().rejected()));
 }
 
-/// The struts that may be what health is judged by, and what is the matter with the others.
-struct Nominal {
-  std::map<std::string, StrutOfDrive> struts;
-  std::vector<std::string> lacks;
-
-  Nominal(const RecordedMonitor& recorded, const std::vector<IdentifyResult>& found, const VehicleOptions& settings) {
-    for (const std::size_t i : recorded.vehicle().asked) {
-      const std::string lack = whyNotNominal(found[i], settings.struts[i].monitor);
-      if (lack.empty())
-        struts.emplace(recorded.vehicle().names[i], *strutOf(found[i]));
-      else
-        lacks.push_back(recorded.vehicle().prefix(i, ": ") + lack);
-    }
-  }
-};
-
 void identifyBags(const po::variables_map& values) {
   const BagOptions options = readBagOptions(values);
   const AskedVehicle& vehicle = options.vehicle;
@@ -256,19 +249,18 @@ void identifyBags(const po::variables_map& values) {
   if (findings) findings->commit(whole.dump(2) + '\n');
   if (csv) csv->commit();
   if (page) page->write(curvesTemplate(), curveFindings(values, options, whole));
-  const Nominal nominal(recorded, found.vehicle.struts, options.settings);
-  const bool has_settings = settings && !nominal.struts.empty();
+  const bool has_settings = settings && !found.nominal.empty();
   if (has_settings)
     settings->commit(
-        settingsOf(nominal.struts, vehicle.only.has_value(), givenSettings(values), fileNames(options.bags.paths)));
+        settingsOf(found.nominal, vehicle.only.has_value(), givenSettings(values), fileNames(options.bags.paths)));
   print(recorded, found, table.items());
   if (has_settings)
-    for (const std::string& lack : nominal.lacks) std::printf("warning: no settings of %s\n", lack.c_str());
+    for (const std::string& lack : found.lacks) std::printf("warning: no settings of %s\n", lack.c_str());
   std::vector<std::string> outputs{"csv", "json", kReport};
   if (has_settings) outputs.emplace_back("output");
   printWritten(values, outputs);
   requireValid(recorded, found.vehicle.struts, options);
-  if (settings && !has_settings) throw TooLittleError("no settings are written: " + join(nominal.lacks, "; "));
+  if (settings && !has_settings) throw TooLittleError("no settings are written: " + join(found.lacks, "; "));
 }
 
 }  // namespace
