@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -12,15 +13,49 @@
 #include "../ros/simulated_drive.h"
 #include "../ros/yaml_settings.h"
 #include "../tools/command.h"
+#include "../tools/long_work.h"
 #include "../tools/recorded_drives.h"
 #include "../tools/recorded_monitor.h"
 #include "../tools/strut_files.h"
-#include "bags_long_work.h"
+#include "long_work.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+/// While it lives, what the tools do on this thread (src/tools/long_work.h) is part of a long work of Python.
+class ToolsWork : boost::noncopyable {
+ public:
+  /// @param bags  number of bags whose reading the callback reports; 0: it reports something else.
+  explicit ToolsWork(LongWork& work, std::size_t bags = 0) : work_(work), bags_(bags), before_(current) {
+    current = this;
+  }
+  ~ToolsWork() { current = before_; }
+
+  /// From now on the callback reports the reading of so many bags.
+  void tellReading(std::size_t bags) {
+    bags_ = bags;
+    begun_ = 0;
+  }
+
+  void beginBar() { ++begun_; }
+  void update(double share) {
+    if (bags_ == 0) return step();
+    const auto others = static_cast<double>(std::min(begun_, bags_)) - 1.0;
+    work_.update((others + share) / static_cast<double>(bags_));
+  }
+  void step() { work_.step(); }
+
+  static thread_local ToolsWork* current;
+
+ private:
+  LongWork& work_;
+  std::size_t bags_, begun_ = 0;
+  ToolsWork* before_;
+};
+
+thread_local ToolsWork* ToolsWork::current = nullptr;
 
 /// Adds what the command line does, as defWork(); its errors are ValueError.
 template <class... Given, class Work, class... Names>
@@ -147,6 +182,29 @@ py::dict readSettings(const std::string& path) {
 }
 
 }  // namespace
+
+// What src/tools/long_work.h promises, for a module of Python: signals belong to the interpreter, which turns Ctrl-C
+// into KeyboardInterrupt, and progress goes to a callback instead of a bar.
+
+Interruption::Interruption() = default;
+Interruption::~Interruption() = default;
+
+void Interruption::check() {
+  if (ToolsWork::current != nullptr) ToolsWork::current->step();
+}
+
+Progress::Progress(std::string label, double total) : label_(std::move(label)), total_(total), visible_(false) {
+  if (ToolsWork::current != nullptr) ToolsWork::current->beginBar();
+}
+
+Progress::~Progress() = default;
+
+void Progress::clear() {}  // nothing is drawn
+
+void Progress::update(double done) {
+  if (ToolsWork::current != nullptr && total_ > 0.0) ToolsWork::current->update(done / total_);
+}
+
 }  // namespace suspension_health_monitor
 
 PYBIND11_MODULE(_bags, module) {

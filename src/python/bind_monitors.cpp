@@ -4,7 +4,6 @@
 
 #include "bindings.h"
 #include "options.h"
-#include "readings.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
 #include "suspension_health_monitor/strut_monitor.h"
 

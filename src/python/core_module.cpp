@@ -1,7 +1,6 @@
 // The compiled part of the Python module that needs no ROS; python/suspension_health_monitor wraps it.
 #include "bindings.h"
 #include "options.h"
-#include "readings.h"
 
 PYBIND11_MODULE(_core, module) {
   using namespace suspension_health_monitor;

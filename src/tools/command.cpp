@@ -37,15 +37,22 @@ std::string shellQuoted(const std::string& word) {
   return "'" + boost::replace_all_copy(word, "'", "'\\''") + "'";
 }
 
-/// Parses, and says what is wrong in the words of the usage: nobody types --bag.
-po::variables_map parsed(const Arguments& arguments, const std::string& usage, const po::options_description& options,
-                         const std::string& positional) {
+/// The file that an output option with this value makes.
+fs::path writtenBy(const std::string& option, const std::string& value) {
+  return option == kReport ? fs::path(value) / kReportFile : fs::path(value);
+}
+
+}  // namespace
+
+std::optional<po::variables_map> parse(const Arguments& arguments, const std::string& usage,
+                                       po::options_description options, const std::string& positional) {
+  options.add_options()("help,h", "show this help");
   po::positional_options_description bare;
   if (!positional.empty()) bare.add(positional.c_str(), -1);
   po::variables_map values;
   // No guessing: an abbreviated option would change its meaning when a new option appears.
   const auto style = po::command_line_style::default_style & ~po::command_line_style::allow_guessing;
-  try {
+  try {  // what is wrong is said in the words of the usage: nobody types --bag
     po::store(po::command_line_parser(arguments).options(options).positional(bare).style(style).run(), values);
     if (values.count("help") == 0) po::notify(values);
   } catch (const po::unknown_option& error) {
@@ -57,20 +64,6 @@ po::variables_map parsed(const Arguments& arguments, const std::string& usage, c
   } catch (const po::too_many_positional_options_error&) {
     throw std::invalid_argument("options only, no other words; usage: suspension_bag " + usage);
   }
-  return values;
-}
-
-/// The file that an output option with this value makes.
-fs::path writtenBy(const std::string& option, const std::string& value) {
-  return option == kReport ? fs::path(value) / kReportFile : fs::path(value);
-}
-
-}  // namespace
-
-std::optional<po::variables_map> parse(const Arguments& arguments, const std::string& usage,
-                                       po::options_description options, const std::string& positional) {
-  options.add_options()("help,h", "show this help");
-  po::variables_map values = parsed(arguments, usage, options, positional);
   if (values.count("help") != 0) {
     std::cout << "usage: suspension_bag " << usage << "\n" << options;
     return std::nullopt;

@@ -3,7 +3,6 @@
 #include "../ros/model_file.h"
 #include "checked_imus.h"
 #include "command.h"
-#include "curve_output.h"
 #include "long_work.h"
 #include "recorded_drives.h"
 #include "report_page.h"
@@ -75,6 +74,17 @@ json toJson(const EffectCost& cost) {
   for (const auto& [name, change] : {std::pair("damping", cost.damping), {"stiffness", cost.stiffness}})
     if (change && cost.fits_without) row[name] = {{"change", change->value}, {"stddev", change->stddev}};
   return row;
+}
+
+/// Tells people how far and how fast a strut moves, and how its stops are used; nothing of one that does not move.
+void printTravel(const TravelStatistics& travel) {
+  if (travel.travel.edges.empty()) return;
+  std::printf("travel up to %.3g mm in compression and %.3g mm in rebound, up to %.3g and %.3g m/s\n",
+              1e3 * travel.travel.compression.largest, 1e3 * travel.travel.rebound.largest,
+              travel.travel_rate.compression.largest, travel.travel_rate.rebound.largest);
+  for (const StopUse& stop : travel.stops)
+    std::printf("%s at %.3g mm: hit %d times, %s of the time in the last tenth before it or in it\n",
+                stop.effect.c_str(), 1e3 * stop.gap, stop.hits, percent(stop.near).c_str());
 }
 
 /// Tells people which candidates were not tried.

@@ -6,7 +6,7 @@
 
 #include "checked_imus.h"
 #include "command.h"
-#include "csv_tables.h"
+#include "csv_table.h"
 #include "html_page.h"
 #include "recorded_monitor.h"
 #include "results.h"

@@ -26,14 +26,12 @@ class HtmlPage {
   void write(const std::string& page) { file_.commit(page); }
 
  private:
-  class Folder : boost::noncopyable {
-   public:
-    explicit Folder(const std::string& path);
+  struct Folder : boost::noncopyable {
+    explicit Folder(const std::string& its_path);
     ~Folder();
 
-   private:
-    std::string path_;
-    bool made_;
+    std::string path;
+    bool made;
   };
 
   Folder folder_;  // before the file, so that it is empty by the time that it is taken away

@@ -2,22 +2,113 @@
 #include <cstdio>
 
 #include "command.h"
-#include "csv_tables.h"
-#include "curve_output.h"
+#include "csv_table.h"
 #include "html_page.h"
+#include "recorded_drives.h"
 #include "recorded_monitor.h"
 #include "results.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/blocks/block_estimator.h"
 #include "suspension_health_monitor/internal/drive_identification.h"
 #include "suspension_health_monitor/internal/math/digest.h"
+#include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 #include "suspension_health_monitor/internal/wording/recording_sentences.h"
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 namespace suspension_health_monitor {
+
+SHM_FIELDS(CurveChange::Range, from, to, softer)
+
 namespace {
 
 constexpr std::size_t kTableLines = 12;
+
+/// Reads bags as drives and fits curves, from the linear struts that identify found.
+/// @param found  by strut.  @return likewise; empty curves where nothing was found, or is not asked for.
+std::vector<StrutCurves> curvesOfBags(BagOptions options, const std::vector<IdentifyResult>& found) {
+  TopicGaps gaps(options.settings.common.shell.input_timeout);
+  const SeparatedVehicle own =
+      separateVehicle(readDrives(options, gaps).drives, options.vehicle.names, options.period(), {});
+  std::vector<StrutCurves> curves(found.size());
+  for (const std::size_t i : options.vehicle.asked) {
+    const StrutEstimate& linear = found[i].estimate;
+    if (i < own.struts.size() && linear.damping_to_mass > 0.0 && linear.stiffness_to_mass > 0.0)
+      curves[i] = strutCurves(own.struts[i], {linear.damping_to_mass, linear.stiffness_to_mass, {}, {}},
+                              options.period(), own.coupling.modelErrorOf(i));
+  }
+  return curves;
+}
+
+json toJson(const std::optional<double>& change, double stddev) {
+  if (!change) return nullptr;
+  const double half = kNinetyPercent * stddev, log = std::log1p(*change);
+  return {{"change", *change}, {"interval", {std::expm1(log - half), std::expm1(log + half)}}};
+}
+
+/// Compares what is known of a strut from one drive with what is known of it from another.
+/// @param bag  name of that of `then`.
+json against(const std::string& bag, const IdentifyResult& now, const StrutCurves& curves_now,
+             const IdentifyResult& then, const StrutCurves& curves_then, double payload_range) {
+  json result{{"bag", bag}};
+  addCurves(curves_then, result);
+  const std::optional<StrutOfDrive> today = strutOf(now), before = strutOf(then);
+  if (!today || !before) {
+    result["change"] =
+        "cannot be compared with " + bag + ": no valid estimate of " + (before ? "this drive" : "that drive");
+    return result;
+  }
+  const DriveChange change = changeOf(today->strut, curves_now, before->strut, curves_then, payload_range);
+  const StrutChange& strut = change.strut;
+  result.update({{"change", describe(change, bag)},
+                 {"damping", toJson(strut.damping, strut.damping_stddev)},
+                 {"stiffness", toJson(strut.stiffness, strut.stiffness_stddev)},
+                 {"payload_change", strut.payload ? json(*strut.payload) : json()},
+                 {"damper_differences", jsonOf(change.damper.ranges)},
+                 {"spring_differences", jsonOf(change.spring.ranges)}});
+  return result;
+}
+
+/// Identifies the bag of --against with all other options as they are, and compares every strut with itself there.
+/// @param now, curves  by strut, of the drives that it is compared with.
+/// @return by strut `bag`, its curves there, `change` in a sentence and, with valid estimates of both, the numbers of
+/// it; empty if --against is not given.
+/// @throws std::invalid_argument, InputError, TooLittleError  as identify, with the bag's name before.
+std::vector<json> againstOther(po::variables_map values, const std::vector<IdentifyResult>& now,
+                               const std::vector<StrutCurves>& curves) {
+  std::vector<json> changes;
+  if (values.count(kAgainst) == 0) return changes;
+  const std::vector<std::string> bags{values[kAgainst].as<std::string>()};
+  values.at("bag").value() = bags;
+  const std::string bag = fileNames(bags).front();
+  try {
+    const BagOptions options = readBagOptions(values);
+    RecordedMonitor recorded(options, HealthyStruts(options.vehicle.names.size()), false);
+    recorded.read();
+    const std::vector<IdentifyResult> then = recorded.identified().struts;
+    const std::vector<StrutCurves> curves_then = curvesOfBags(options, then);
+    for (std::size_t i = 0; i < now.size(); ++i)
+      changes.push_back(
+          against(bag, now[i], curves[i], then[i], curves_then[i], options.settings.struts[i].monitor.payload_range));
+  } catch (const TooLittleError& error) {
+    throw TooLittleError(std::string("--") + kAgainst + ' ' + bag + ": " + error.what());
+  }
+  return changes;
+}
+
+/// What the page of curves is made of.
+/// @param values  of the command that makes it.  @param whole  what was found, as --json has it.
+json curveFindings(const po::variables_map& values, const BagOptions& options, json whole) {
+  const AskedVehicle& vehicle = options.vehicle;
+  json struts = json::array();
+  for (const std::size_t i : vehicle.asked) {
+    const json& its = vehicle.resultsOf(i, whole);
+    struts.push_back({{"strut", vehicle.names[i]}, {"against", its.value("against", json())}});
+    for (const char* curve : {"damper_curve", "spring_curve"}) struts.back()[curve] = its[curve];
+  }
+  return {{"struts", shortened(struts)},
+          {"source", join(fileNames(options.bags.paths))},
+          {"origin", originOf(values, namesOf(options.bags.topics))}};
+}
 
 /// What is known at the end.
 struct Found {
@@ -27,11 +118,20 @@ struct Found {
       const PipelineOptions& strut = options.settings.struts[i];
       changes.push_back(describeChange(vehicle.struts[i], knownHealthy(healthy[i], strut), strut.monitor));
     }
+    for (const std::size_t i : options.vehicle.asked) {
+      const std::string lack = whyNotNominal(vehicle.struts[i], options.settings.struts[i].monitor);
+      if (lack.empty())
+        nominal.emplace(options.vehicle.names[i], *strutOf(vehicle.struts[i]));
+      else
+        lacks.push_back(options.vehicle.prefix(i, ": ") + lack);
+    }
     if (changes.size() > 1) body = inertiaOf(recorded.monitor().body(), recorded.monitor().vehicle()->places());
   }
 
   VehicleIdentification vehicle;
-  std::vector<std::string> changes;  // by strut, against the healthy one
+  std::vector<std::string> changes;             // by strut, against the healthy one
+  std::map<std::string, StrutOfDrive> nominal;  // the struts that may be what health is judged by
+  std::vector<std::string> lacks;               // what is the matter with the others
   std::optional<BodyInertia> body;
   std::vector<StrutCurves> curves;  // by strut, if they are asked for
   std::vector<json> against;        // by strut, if there is another drive
@@ -126,22 +226,6 @@ void requireValid(const RecordedMonitor& recorded, const std::vector<IdentifyRes
                        describeRejected(recorded.pipeline().rejected()));
 }
 
-/// The struts that may be what health is judged by, and what is the matter with the others.
-struct Nominal {
-  std::map<std::string, StrutOfDrive> struts;
-  std::vector<std::string> lacks;
-
-  Nominal(const RecordedMonitor& recorded, const std::vector<IdentifyResult>& found, const VehicleOptions& settings) {
-    for (const std::size_t i : recorded.vehicle().asked) {
-      const std::string lack = whyNotNominal(found[i], settings.struts[i].monitor);
-      if (lack.empty())
-        struts.emplace(recorded.vehicle().names[i], *strutOf(found[i]));
-      else
-        lacks.push_back(recorded.vehicle().prefix(i, ": ") + lack);
-    }
-  }
-};
-
 void identifyBags(const po::variables_map& values) {
   const BagOptions options = readBagOptions(values);
   const AskedVehicle& vehicle = options.vehicle;
@@ -165,19 +249,18 @@ void identifyBags(const po::variables_map& values) {
   if (findings) findings->commit(whole.dump(2) + '\n');
   if (csv) csv->commit();
   if (page) page->write(curvesTemplate(), curveFindings(values, options, whole));
-  const Nominal nominal(recorded, found.vehicle.struts, options.settings);
-  const bool has_settings = settings && !nominal.struts.empty();
+  const bool has_settings = settings && !found.nominal.empty();
   if (has_settings)
     settings->commit(
-        settingsOf(nominal.struts, vehicle.only.has_value(), givenSettings(values), fileNames(options.bags.paths)));
+        settingsOf(found.nominal, vehicle.only.has_value(), givenSettings(values), fileNames(options.bags.paths)));
   print(recorded, found, table.items());
   if (has_settings)
-    for (const std::string& lack : nominal.lacks) std::printf("warning: no settings of %s\n", lack.c_str());
+    for (const std::string& lack : found.lacks) std::printf("warning: no settings of %s\n", lack.c_str());
   std::vector<std::string> outputs{"csv", "json", kReport};
   if (has_settings) outputs.emplace_back("output");
   printWritten(values, outputs);
   requireValid(recorded, found.vehicle.struts, options);
-  if (settings && !has_settings) throw TooLittleError("no settings are written: " + join(nominal.lacks, "; "));
+  if (settings && !has_settings) throw TooLittleError("no settings are written: " + join(found.lacks, "; "));
 }
 
 }  // namespace

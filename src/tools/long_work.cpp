@@ -27,12 +27,6 @@ constexpr int kWidth = 40;
 
 }  // namespace
 
-int Interrupted::endProgram() const {
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-  return 128 + signal;  // as shells do
-}
-
 Interruption::Interruption() {
   struct sigaction action {};
   action.sa_handler = noteSignal;

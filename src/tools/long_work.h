@@ -10,10 +10,6 @@ namespace suspension_health_monitor {
 /// SIGINT, SIGTERM or SIGHUP came. No std::exception: nobody on the way takes it for an error of his own.
 struct Interrupted {
   int signal;
-
-  /// Ends the program by this signal, as whoever sent it expects.
-  /// @return what the shell would report, should the signal be blocked.
-  int endProgram() const;
 };
 
 /// Made before a file is begun. While it lives, a signal that asks the program to end is only noted, and check() throws

@@ -98,24 +98,20 @@ RecordedDrives readDrives(BagOptions& options, TopicGaps& gaps) {
 void printBags(const BagOptions& options, const std::vector<ReadSamples>& bags, const TopicGaps& gaps) {
   gaps.print();
   printPeriod(options, options.period());
-  for (const auto& [grid, rejected, mount_faults] : bags) {
-    printReadings(grid);
-    for (std::size_t i = 0; i < rejected.size(); ++i) printRejected(options.bags.topics[i].name, rejected[i]);
-  }
+  for (const ReadSamples& bag : bags) printReadings(bag.grid, options.bags, bag.rejected);
 }
 
 void printPeriod(const BagOptions& options, double period) {
   std::printf("sample period %.6g s%s\n", period, options.period_measured ? " (measured)" : "");
 }
 
-void printReadings(const VehicleGrid& grid) {
+void printReadings(const VehicleGrid& grid, const ImuBags& bags, const std::vector<RejectCounts>& rejected) {
   std::printf("%" PRIu64 " instants, readings %s\n", grid.numInstants(), describeAlignment(grid.streams()).c_str());
   const std::string leans = describe(grid.bodyLevel());
   if (!leans.empty()) std::printf("%s\n", leans.c_str());
-}
-
-void printRejected(const std::string& topic, const RejectCounts& rejected) {
-  if (rejected.total() > 0) std::printf("%s%s\n", topic.c_str(), describeRejected(rejected).c_str());
+  for (std::size_t i = 0; i < rejected.size(); ++i)
+    if (rejected[i].total() > 0)
+      std::printf("%s%s\n", bags.topics[i].name.c_str(), describeRejected(rejected[i]).c_str());
 }
 
 void requireEnough(Shortcoming shortcoming, const std::string& reason, const std::string& prefix) {

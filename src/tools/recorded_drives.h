@@ -55,11 +55,9 @@ void printBags(const BagOptions& options, const std::vector<ReadSamples>& bags, 
 /// Tells people the sample period.
 void printPeriod(const BagOptions& options, double period);
 
-/// Tells people what the readings became.
-void printReadings(const VehicleGrid& grid);
-
-/// Tells people what became of the messages of a sensor that were kept out.
-void printRejected(const std::string& topic, const RejectCounts& rejected);
+/// Tells people what the readings became, and of which topics messages were kept out.
+/// @param rejected  by topic, from the first on.
+void printReadings(const VehicleGrid& grid, const ImuBags& bags, const std::vector<RejectCounts>& rejected);
 
 /// What `compare` and `diagnose` begin with, on the command line and in Python.
 struct AskedDrives {

@@ -88,8 +88,9 @@ std::string RecordedMonitor::whyTooLittle() const {
 void RecordedMonitor::printInput() const {
   gaps_.print();
   printPeriod(options_, *pipeline_.period());
-  printReadings(*pipeline_.grid());
-  for (std::size_t i = 0; i < topics_.size(); ++i) printRejected(topics_[i], pipeline_.rejected(i));
+  std::vector<RejectCounts> rejected;
+  while (rejected.size() < topics_.size()) rejected.push_back(pipeline_.rejected(rejected.size()));
+  printReadings(*pipeline_.grid(), options_.bags, rejected);
   for (const std::size_t i : options_.vehicle.asked) {
     const InputStatus& input = strut(i).input();
     const int horizon = strut(i).horizonSamples();

@@ -1,5 +1,6 @@
 #include "results.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -34,33 +35,31 @@ json couplingJson(const std::vector<std::vector<double>>& ratios, const std::vec
   return result;
 }
 
-json barsJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  json bars = json::array();
-  for (const AntiRollBarFound& bar : coupling.bars)
-    bars.push_back(
-        {{"struts", {names[bar.first], names[bar.second]}},
-         {"stiffness_to_mass",
-          {{names[bar.first], bar.first_stiffness_to_mass}, {names[bar.second], bar.second_stiffness_to_mass}}}});
-  return bars;
+constexpr double kRows = 6.0;  // of a table, or up to twice as many
+constexpr int kTitleWidth = 15;
+
+/// @return 1, 2 or 5 times a power of ten, not above x > 0.
+double roundedDown(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  return power * (x >= 5.0 * power ? 5.0 : x >= 2.0 * power ? 2.0 : 1.0);
 }
 
-json forcesJson(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  json forces = json::object();
-  for (const KnownForceCoefficients& force : coupling.forces)
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      forces[force.name]["coefficients"][names[i]] = force.values[i];
-      forces[force.name]["stddevs"][names[i]] = force.stddevs[i];
-    }
-  return forces;
+/// @param shown  of the variable, in SI.
+void print(const char* title, const ForceCurve& curve, double shown, const std::optional<double>& mass) {
+  if (curve.at.empty()) return void(std::printf("%s: the drives do not tell\n", title));
+  std::printf("%-*s  %-20s  rebound, force [%s]\n", kTitleWidth, title, "compression", mass ? "N" : "m/s^2");
+  const double most = std::max(-curve.at.front(), curve.at.back()), step = roundedDown(most / kRows);
+  const auto entry = [&](double x) {
+    return curve.covers(x) ? formatted("%9.4g +- %.2g", mass.value_or(1.0) * curve.forceAt(x),
+                                       mass.value_or(1.0) * kNinetyPercent * curve.stddevAt(x))
+                           : std::string("        -");
+  };
+  for (int i = 1; i * step <= most; ++i)
+    std::printf("%*.4g  %-20s  %s\n", kTitleWidth, i * step / shown, entry(i * step).c_str(), entry(-i * step).c_str());
 }
 
-void printForces(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  for (const KnownForceCoefficients& force : coupling.forces) {
-    std::printf("one unit of %s accelerates the tops by [m/s^2]:", force.name.c_str());
-    for (std::size_t i = 0; i < names.size(); ++i)
-      std::printf("%s %s %.4g +- %.2g", i > 0 ? "," : "", names[i].c_str(), force.values[i], force.stddevs[i]);
-    std::printf("\n");
-  }
+json toJson(const char* variable, const ForceCurve& curve) {
+  return {{variable, curve.at}, {"force", curve.force}, {"stddev", curve.stddev}};
 }
 
 }  // namespace
@@ -153,7 +152,12 @@ json toJson(const WheelEstimate& estimate, const StrutEstimate& strut) {
 }
 
 void printCoupling(const VehicleCoupling& coupling, const std::vector<std::string>& names) {
-  printForces(coupling, names);
+  for (const KnownForceCoefficients& force : coupling.forces) {
+    std::printf("one unit of %s accelerates the tops by [m/s^2]:", force.name.c_str());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      std::printf("%s %s %.4g +- %.2g", i > 0 ? "," : "", names[i].c_str(), force.values[i], force.stddevs[i]);
+    std::printf("\n");
+  }
   if (names.size() < 2) return;
   std::printf("how much of what a strut does to its own top reaches the others:\n%16s", "moved by");
   for (const std::string& name : names) std::printf("  %14s", name.c_str());
@@ -174,15 +178,35 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
                 names[bar.second].c_str(), bar.first_stiffness_to_mass, bar.second_stiffness_to_mass);
 }
 
+void printCurves(const StrutCurves& curves, const std::optional<double>& mass) {
+  print("damper at [m/s]", curves.damper.absolute(), 1.0, mass);
+  print("spring at [mm]", curves.spring.absolute(), 1e-3, mass);
+}
+
+void addCurves(const StrutCurves& curves, json& into) {
+  into["damper_curve"] = toJson("velocity", curves.damper.absolute());
+  into["spring_curve"] = toJson("travel", curves.spring.absolute());
+}
+
 json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, const TopicGaps& gaps) {
   json whole{{"silent", gaps.toJson()}};
   if (vehicle.isStrutAlone()) return whole;
-  whole["struts"] = json::object();
-  whole["coupling"] = couplingJson(coupling.ratios, vehicle.names);
-  whole["coupling_stddevs"] = couplingJson(coupling.stddevs, vehicle.names);
-  whole["anti_roll_bars"] = barsJson(coupling, vehicle.names);
-  whole["known_forces"] = forcesJson(coupling, vehicle.names);
+  const std::vector<std::string>& names = vehicle.names;
+  whole["struts"] = whole["known_forces"] = json::object();
+  whole["coupling"] = couplingJson(coupling.ratios, names);
+  whole["coupling_stddevs"] = couplingJson(coupling.stddevs, names);
   whole["model_error"] = coupling.model_error;
+  whole["anti_roll_bars"] = json::array();
+  for (const AntiRollBarFound& bar : coupling.bars)
+    whole["anti_roll_bars"].push_back(
+        {{"struts", {names[bar.first], names[bar.second]}},
+         {"stiffness_to_mass",
+          {{names[bar.first], bar.first_stiffness_to_mass}, {names[bar.second], bar.second_stiffness_to_mass}}}});
+  for (const KnownForceCoefficients& force : coupling.forces)
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      whole["known_forces"][force.name]["coefficients"][names[i]] = force.values[i];
+      whole["known_forces"][force.name]["stddevs"][names[i]] = force.stddevs[i];
+    }
   return whole;
 }
 

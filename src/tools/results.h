@@ -17,6 +17,8 @@ namespace suspension_health_monitor {
 
 // What commands find, for people (print...) and for programs (toJson).
 
+inline constexpr double kNinetyPercent = 1.645;  ///< standard deviations
+
 /// @return a result as an object with its fields by name, where an empty optional field is left out; a matrix as a list
 /// of rows, a stamp in seconds, a level or verdict by its name.
 template <class Value>
@@ -30,20 +32,17 @@ json jsonOf(const std::vector<Item>& items) {
 }
 
 template <class Value>
-void addTo(json& into, const char* name, const Value& value) {
-  into[name] = jsonOf(value);
-}
-
-template <class Value>
-void addTo(json& into, const char* name, const std::optional<Value>& value) {
-  if (value) addTo(into, name, *value);
+json jsonOf(const std::optional<Value>& value) {
+  return value ? jsonOf(*value) : json();
 }
 
 template <class Value>
 json jsonOf(const Value& value) {
   if constexpr (Fields<Value>::value) {
     json into;
-    Fields<Value>::forEach([&](const char* name, auto field) { addTo(into, name, value.*field); });
+    Fields<Value>::forEach([&](const char* name, auto field) {
+      if (json its = jsonOf(value.*field); !its.is_null()) into[name] = std::move(its);
+    });
     return into;
   } else if constexpr (std::is_base_of_v<Eigen::EigenBase<Value>, Value>) {
     json rows = json::array();
@@ -79,6 +78,13 @@ json toJson(const IdentifyResult& found, const std::string& change);
 /// @param estimate, strut  by the same estimator.
 void printTyre(const char* name, const WheelEstimate& estimate, const StrutEstimate& strut);
 json toJson(const WheelEstimate& estimate, const StrutEstimate& strut);
+
+/// Tells people the forces at even travel rates and travels, compression beside rebound, with nine tenths of certainty.
+/// @param mass  of the body [kg], for forces in N; nothing: over the mass.
+void printCurves(const StrutCurves& curves, const std::optional<double>& mass);
+
+/// Adds "damper_curve" and "spring_curve", over the body's mass.
+void addCurves(const StrutCurves& curves, json& into);
 
 /// What a search found.
 json toJson(const Diagnosis& found);

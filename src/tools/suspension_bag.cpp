@@ -1,4 +1,5 @@
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -45,7 +46,9 @@ int run(const Command& command, const Arguments& arguments) {
     return kDone;
   } catch (const Interrupted& interrupted) {
     std::fprintf(stderr, "suspension_bag %s: interrupted, files that were not finished are removed\n", command.name);
-    return interrupted.endProgram();
+    std::signal(interrupted.signal, SIG_DFL);
+    std::raise(interrupted.signal);   // ends the program as whoever sent the signal expects
+    return 128 + interrupted.signal;  // as shells do, should the signal be blocked
   } catch (const TooLittleError& error) {
     return fail(command.name, error, kTooLittle);
   } catch (const FailedInspection& failed) {
