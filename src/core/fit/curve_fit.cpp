@@ -4,22 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "nodal_law.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
-#include "suspension_health_monitor/internal/fit/output_error_fit.h"
-#include "suspension_health_monitor/internal/math/linear_solve.h"
-#include "suspension_health_monitor/internal/math/statistics.h"
+#include "whitening.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-constexpr int kFirstNodes = 8;             // per side: half an rms apart, as the extremes of a drive are some four
-constexpr int kRefinements = 4;            // to a sixteenth of that: a thirtieth of the rms
+constexpr int kRefinements = 4;            // to a sixteenth of the first nodes' distance: a thirtieth of the rms
 constexpr std::size_t kMostNodes = 50;     // of a law: it does not bend everywhere
 constexpr double kTolerated = 0.5;         // misfit over standard deviation: adds an eighth of the variance
 constexpr double kSteepest = 10.0;         // change of slope, over the slope, that is not unusual (an end stop)
@@ -28,112 +25,6 @@ constexpr int kMostHalvings = 6;           // of a step after which the model ru
 constexpr double kTransient = 1e-3;        // share of a wrong initial state that the first sample that counts still has
 constexpr double kPeriodsOfCluster = 2.0;  // noise that a strut passes is forgotten after a natural period
 constexpr Eigen::Index kRowsPerColumn = 20;  // fewest samples
-constexpr Eigen::Index kWhitening = 10;  // order: two for each resonance of body and wheel, and for sensors' filters
-
-/// A piecewise linear function of one variable that is 0 at 0, and goes on straight beyond its ends.
-struct NodalLaw {
-  std::vector<double> nodes, values;
-
-  /// @return a law with even nodes on either side of 0, up to `most`.
-  template <class Law>
-  static NodalLaw sampled(double most, const Law& law) {
-    NodalLaw sampled;
-    for (int i = -kFirstNodes; i <= kFirstNodes; ++i) {
-      sampled.nodes.push_back(most * i / kFirstNodes);
-      sampled.values.push_back(i == 0 ? 0.0 : law(sampled.nodes.back()));
-    }
-    return sampled;
-  }
-
-  /// Calls take(node, weight) for the two nodes that decide f(x).
-  template <class Take>
-  void forNodesAt(double x, const Take& take) const {
-    const auto above = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
-    const auto i = static_cast<std::size_t>(above - nodes.begin());
-    const double share = (x - nodes[i - 1]) / (nodes[i] - nodes[i - 1]);
-    take(i - 1, 1.0 - share);
-    take(i, share);
-  }
-
-  double at(double x) const {
-    double sum = 0.0;
-    forNodesAt(x, [&](std::size_t i, double weight) { sum += weight * values[i]; });
-    return sum;
-  }
-
-  /// Weights of three neighbours' values in the change of slope at the middle one.
-  Eigen::Vector3d bendWeights(std::size_t i) const {
-    const double before = 1.0 / (nodes[i] - nodes[i - 1]), after = 1.0 / (nodes[i + 1] - nodes[i]);
-    return {before, -before - after, after};
-  }
-
-  double bend(std::size_t i) const {
-    const Eigen::Vector3d weights = bendWeights(i);
-    return weights[0] * values[i - 1] + weights[1] * values[i] + weights[2] * values[i + 1];
-  }
-
-  /// The same function with more nodes: in the middle of cells that have an end where splits(node).
-  template <class Splits>
-  NodalLaw refined(const Splits& splits) const {
-    NodalLaw finer;
-    const auto add = [&](double x, double value) {
-      finer.nodes.push_back(x);
-      finer.values.push_back(value);
-    };
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (i > 0 && (splits(i - 1) || splits(i)))
-        add(0.5 * (nodes[i - 1] + nodes[i]), 0.5 * (values[i - 1] + values[i]));
-      add(nodes[i], values[i]);
-    }
-    return finer;
-  }
-};
-
-/// A series behind an FIR filter that begins where it has its past; 0 before.
-/// @param taps  the newest sample's last.
-Eigen::VectorXd filtered(const Eigen::VectorXd& series, const Eigen::VectorXd& taps) {
-  const Eigen::Index n = series.size() - taps.size() + 1;
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(series.size());
-  for (Eigen::Index j = 0; j < taps.size(); ++j) result.tail(n) += taps[j] * series.segment(j, n);
-  return result;
-}
-
-/// Prediction error filter of an autoregressive model of a series, by least squares.
-/// @param counts  1 where a sample and those before it are of one stretch, else 0.
-Eigen::VectorXd whiteningOf(const Eigen::VectorXd& series, const Eigen::VectorXd& counts) {
-  const Eigen::Index n = series.size() - kWhitening;
-  Eigen::MatrixXd past(n, kWhitening);
-  for (Eigen::Index j = 0; j < kWhitening; ++j) past.col(j) = counts.tail(n).cwiseProduct(series.segment(j, n));
-  Eigen::MatrixXd normal = past.transpose() * past;
-  normal.diagonal().array() += kRounding * normal.trace() + std::numeric_limits<double>::min();
-  Eigen::VectorXd taps(kWhitening + 1);
-  taps << -solveSymmetric(normal, past.transpose() * series.tail(n)), 1.0;
-  return taps;
-}
-
-/// @param counts  1 where a whitened sample counts, else 0.  @param accuracy  below which no error is [m/s^2].
-/// @return one over the variance; less for outliers; 0 for what does not count.
-Eigen::VectorXd robustWeights(const Eigen::VectorXd& white, const Eigen::VectorXd& counts, double accuracy) {
-  std::vector<double> counted;
-  for (Eigen::Index k = 0; k < white.size(); ++k)
-    if (counts[k] > 0.0) counted.push_back(white[k]);
-  const double limit = kOutlierScale * std::max(robustDeviation(counted), accuracy);
-  const Eigen::VectorXd weights = counts.array() / (1.0 + (white.array() / limit).square()).sqrt();
-  const double variance = weights.dot(white.cwiseAbs2()) / weights.sum();
-  return weights / std::max(variance, square(accuracy));
-}
-
-/// Sum of the squared scores of stretches: it tells the scatter of a solution where noise is not alike at all times.
-/// @param weighted  what the solution leaves, weighted.  @param length  of a stretch.
-Eigen::MatrixXd sumOfScores(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weighted, Eigen::Index length) {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-  for (Eigen::Index k = 0; k < columns.rows(); k += length) {
-    const Eigen::Index count = std::min(length, columns.rows() - k);
-    const Eigen::VectorXd score = columns.middleRows(k, count).transpose() * weighted.segment(k, count);
-    sum.noalias() += score * score.transpose();
-  }
-  return sum;
-}
 
 enum Which : std::size_t { kDamper, kSpring };
 
@@ -210,7 +101,7 @@ class CurveFit {
     const auto isKnown = [&](std::size_t i) {
       return stddev[i] < kSmall * std::max(slopes_[which] * rms_[which], std::abs(law.values[i]));
     };
-    std::size_t first = zero(which), last = first;
+    std::size_t first = law.zero(), last = first;
     while (first > 0 && isKnown(first - 1)) --first;
     while (last + 1 < stddev.size() && isKnown(last + 1)) ++last;
     if (first == last) return {};
@@ -230,10 +121,6 @@ class CurveFit {
     return static_cast<Eigen::Index>(which == kDamper ? node : laws_[kDamper].nodes.size() + node);
   }
   Eigen::Index size() const { return column(kSpring, laws_[kSpring].nodes.size()) + 1; }
-  std::size_t zero(std::size_t which) const {
-    const std::vector<double>& nodes = laws_[which].nodes;
-    return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), 0.0) - nodes.begin());
-  }
 
   // The larger one of what white noise, and what the scores of stretches of the drives tell.
   double byNoise(std::size_t which, std::size_t node) const {
@@ -313,7 +200,7 @@ class CurveFit {
     Eigen::VectorXd right = columns.transpose() * weights.cwiseProduct(white);
     addPrior(normal, right);
     Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
-    for (const std::size_t w : {kDamper, kSpring}) scale[column(w, zero(w))] = 0.0;  // 0 at 0
+    for (const std::size_t w : {kDamper, kSpring}) scale[column(w, laws_[w].zero())] = 0.0;  // 0 at 0
     Eigen::MatrixXd scaled = scale.asDiagonal() * normal * scale.asDiagonal();
     scaled.diagonal().setOnes();
     inverse_ = scale.asDiagonal() * solveSymmetric(scaled, Eigen::MatrixXd(scale.asDiagonal()));
@@ -336,7 +223,7 @@ class CurveFit {
     for (const std::size_t w : {kDamper, kSpring})
       finer[w] = laws_[w].refined([&](std::size_t i) {
         // 0 is known exactly
-        const double stddev = i == zero(w) ? std::max(byNoise(w, i - 1), byNoise(w, i + 1)) : byNoise(w, i);
+        const double stddev = i == laws_[w].zero() ? std::max(byNoise(w, i - 1), byNoise(w, i + 1)) : byNoise(w, i);
         return laws_[w].nodes.size() < kMostNodes && misfit(w, i) > kTolerated * stddev;
       });
     const Eigen::Index before = size();
@@ -359,16 +246,6 @@ class CurveFit {
 };
 
 }  // namespace
-
-ForceCurve ForceCurve::absolute() const {
-  ForceCurve result = *this;
-  for (std::size_t i = 0; i < stddev.size(); ++i) result.stddev[i] = std::hypot(stddev[i], model_error * force[i]);
-  result.model_error = 0.0;
-  return result;
-}
-
-double ForceCurve::forceAt(double x) const { return NodalLaw{at, force}.at(x); }
-double ForceCurve::stddevAt(double x) const { return NodalLaw{at, stddev}.at(x); }
 
 StrutCurves fitCurves(const Records& records, const StrutModel& model) {
   // To the model, the curves are one more effect.

@@ -31,8 +31,18 @@ struct EvaluatedModel {
   PairedTest gainOf(const EvaluatedModel& after) const { return testPaired(stretches, after.stretches, independent); }
 };
 
-inline bool contains(const std::vector<std::string>& names, const std::string& name) {
+using Names = std::vector<std::string>;
+
+inline bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What is in a model and was not in the one that the search started with.
+inline Names namesBeyond(const EvaluatedModel& base, const EvaluatedModel& model) {
+  Names added;
+  for (const std::string& name : model.ranked.effects)
+    if (!contains(base.ranked.effects, name)) added.push_back(name);
+  return added;
 }
 
 /// Free parameters of a model beyond b1 and b0: the simpler of two equal ones is preferred.
