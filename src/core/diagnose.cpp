@@ -4,7 +4,6 @@
 #include <deque>
 #include <stdexcept>
 
-#include "fit/nodal_law.h"
 #include "suspension_health_monitor/compare.h"
 #include "suspension_health_monitor/effects.h"
 #include "suspension_health_monitor/internal/base/text.h"
@@ -131,16 +130,6 @@ Comparison compare(const std::vector<Drive>& drives, const CompareOptions& optio
   if (comparison) describeFailures(comparison.views, comparison.noise_floor, comparison.where);
   return comparison;
 }
-
-ForceCurve ForceCurve::absolute() const {
-  ForceCurve result = *this;
-  for (std::size_t i = 0; i < stddev.size(); ++i) result.stddev[i] = std::hypot(stddev[i], model_error * force[i]);
-  result.model_error = 0.0;
-  return result;
-}
-
-double ForceCurve::forceAt(double x) const { return NodalLaw{at, force}.at(x); }
-double ForceCurve::stddevAt(double x) const { return NodalLaw{at, stddev}.at(x); }
 
 StrutCurves strutCurves(const std::vector<Drive>& drives, const StrutModel& model,
                         const std::optional<double>& sample_period, const std::array<double, 2>& model_error) {

@@ -84,6 +84,10 @@ int threadsOf(const po::variables_map& values);
 /// messages.
 double measurePeriod(const ImuBags& bags);
 
+/// @throws std::invalid_argument  if sample_period is so far below the spacing of the stamps at the beginning of the
+/// bags that nearly all samples would be made up. Bags whose stamps tell no spacing are left to what reads them.
+void requireFittingPeriod(const ImuBags& bags, double sample_period);
+
 /// @return the settings that --config and --set give. The models that diagnose -o writes are a config, too: their
 /// effects by model_file, their b1 and b0 as nominal values.
 /// @throws std::invalid_argument  as command.h.

@@ -65,7 +65,8 @@ void BlockEstimator::learnSlow() {
   weights_ = window_fit_.weights();
   weights_.median.resize(power.rows());
   for (Eigen::Index i = 0; i < power.rows(); ++i) {
-    sorted_.assign(power.row(i).begin(), power.row(i).end());
+    sorted_.resize(power.cols());
+    Eigen::VectorXd::Map(sorted_.data(), power.cols()) = power.row(i);
     weights_.median[i] = std::max(medianInPlace(sorted_), std::numeric_limits<double>::min());
   }
   scatter_ = window_fit_.scatterBetweenBlocks(newest(count_), trial_.theta);

@@ -258,4 +258,14 @@ StrutCurves fitCurves(const Records& records, const StrutModel& model) {
   return {fit.curve(kDamper), fit.curve(kSpring)};
 }
 
+ForceCurve ForceCurve::absolute() const {
+  ForceCurve result = *this;
+  for (std::size_t i = 0; i < stddev.size(); ++i) result.stddev[i] = std::hypot(stddev[i], model_error * force[i]);
+  result.model_error = 0.0;
+  return result;
+}
+
+double ForceCurve::forceAt(double x) const { return NodalLaw{at, force}.at(x); }
+double ForceCurve::stddevAt(double x) const { return NodalLaw{at, stddev}.at(x); }
+
 }  // namespace suspension_health_monitor

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
@@ -50,7 +49,7 @@ FitOutcome residualsOfNoise(const std::vector<CornerSample>& noise, double perio
 /// rms of white noise that is as dense as w'' just below half the rate.
 double levelAtLimit(const Records& records) {
   const Eigen::ArrayXd power = meanPower(seriesOf(segmentsOf(records), &DriveSegment::unsprung));
-  const double at_limit = std::accumulate(power.end() - 1 - kAtLimit, power.end() - 1, 0.0) / kAtLimit;
+  const double at_limit = power.tail(1 + kAtLimit).head(kAtLimit).sum() / kAtLimit;
   return std::sqrt(at_limit / Periodogram(kWindow).taperPower());
 }
 
@@ -93,11 +92,9 @@ NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double 
   for (std::size_t f = 1; f < count; ++f) {
     const double frequency = static_cast<double>(f) / (static_cast<double>(length) * period);
     gain[f] = square(transmissibility(model.damping_to_mass, model.stiffness_to_mass, frequency));
-    for (const double power : spectra.row(f)) {
-      if (!(power > 0.0)) return {};
-      resistance[f] += 1.0 / power;
-      all += power;
-    }
+    if (!(spectra.row(f) > 0.0).all()) return {};
+    resistance[f] = spectra.row(f).inverse().sum();
+    all += spectra.row(f).sum();
   }
   // A sensor passes what the strut does: the band begins below its natural frequency and goes beyond twice that.
   const auto natural = static_cast<std::size_t>(static_cast<double>(length) / natural_period);
@@ -148,7 +145,7 @@ double floorOfKnownNoise(const Records& records, const StrutModel& model) {
   const FitOutcome noise = residualsOfNoise(records.front()->noise(), records.front()->period(), model);
   if (!fit || !noise) return 0.0;
   const Eigen::ArrayXd residual = meanPower(fit->residuals), known = meanPower(noise->residuals);
-  const double mean = std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(kWindow / 2);
+  const double mean = known.sum() / static_cast<double>(kWindow / 2);
   std::vector<double> levels;
   for (Eigen::Index f = 0; f < known.size(); ++f)
     if (known[f] > kNone * mean) levels.push_back(residual[f] / known[f]);
