@@ -63,7 +63,7 @@ double floorOf(const BatteryDrive& drive) {
     if (!runFree(drive.truth, segment, {}, residuals.back())) return std::nan("");
     for (std::size_t k = 0; k < segment.size(); ++k) residuals.back()[k] = segment.sprung[k] - residuals.back()[k];
   }
-  return held_out->rmse(held_out->stretchErrors(residuals));
+  return held_out->rmse(residuals);
 }
 
 struct Tally {
