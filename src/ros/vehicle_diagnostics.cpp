@@ -64,7 +64,7 @@ CouplingInUse toMsg(const VehicleCoupling& coupling, const VehicleMonitor* monit
   msg.forces = forces;
   msg.condition = kUnknown;
   msg.model_error = coupling.model_error;
-  setBody(msg.known ? inertiaOf(monitor->body(), placesOf(*monitor)) : BodyInertia{InertiaDoubt::kUncertain}, msg);
+  setBody(msg.known ? inertiaOf(monitor->body(), placesOf(*monitor)) : BodyInertia(), msg);
   if (!msg.known) {
     msg.ratios.assign(struts.size() * struts.size(), kUnknown);
     msg.stddevs = msg.ratios;

@@ -11,7 +11,7 @@ namespace suspension_health_monitor {
 namespace {
 
 /// A bag is a sequence of records: a header of name=value fields, and data. Integers are little-endian.
-/// Everything here answers nothing where the bytes do not have that form; it never reads past them.
+/// What returns an optional is empty where the bytes do not have that form; nothing reads past them.
 
 /// @return the integer that the bytes hold.
 template <class Integer>
@@ -93,7 +93,7 @@ InputError damagedChunk(const std::string& path) {
   return InputError(path + ": a chunk is damaged (rosbag reindex saves the others)");
 }
 
-/// @param path  likewise.  @param bytes  of the chunk.
+/// @param path  of the bag, for messages.  @param bytes  of the chunk.
 void parseMessages(const std::string& path, const BagChunk& chunk, std::string_view bytes,
                    std::vector<BagMessage>& messages) {
   messages.clear();

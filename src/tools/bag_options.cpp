@@ -6,14 +6,11 @@
 #include <memory>
 #include <stdexcept>
 #include <thread>
-#include <utility>
 
-#include "../ros/conversions.h"
 #include "../ros/model_file.h"
 #include "../ros/vehicle_sensors.h"
 #include "bag_file.h"
 #include "long_work.h"
-#include "recorded_drives.h"
 #include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
 

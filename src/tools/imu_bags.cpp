@@ -117,7 +117,7 @@ OpenChunk readChunk(BagFile& file, const WantedTopics& wanted, const Range& rang
 struct Delivery {
   const TopicSinks& take;
   TopicGaps* gaps;
-  std::vector<OpenChunk> open = {};  // as many as overlap in time, mostly one or two
+  std::vector<OpenChunk> open = {};  // not done, as many as overlap in time: mostly one or two
   OpenChunk spare = {};              // storage of a chunk that is done, to be used again
 
   /// @return false if no more messages are wanted.

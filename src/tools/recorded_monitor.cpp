@@ -89,7 +89,7 @@ void RecordedMonitor::printInput() const {
   gaps_.print();
   printPeriod(options_, *pipeline_.period());
   std::vector<RejectCounts> rejected;
-  while (rejected.size() < topics_.size()) rejected.push_back(pipeline_.rejected(rejected.size()));
+  for (std::size_t i = 0; i < topics_.size(); ++i) rejected.push_back(pipeline_.rejected(i));
   printReadings(*pipeline_.grid(), options_.bags, rejected);
   for (const std::size_t i : options_.vehicle.asked) {
     const InputStatus& input = strut(i).input();

@@ -35,8 +35,8 @@ json couplingJson(const std::vector<std::vector<double>>& ratios, const std::vec
   return result;
 }
 
-constexpr double kRows = 6.0;  // of a table, or up to twice as many
-constexpr int kTitleWidth = 15;
+constexpr double kCurveRows = 6.0;  // of a curve's table, or up to twice as many
+constexpr int kCurveTitleWidth = 15;
 
 /// @return 1, 2 or 5 times a power of ten, not above x > 0.
 double roundedDown(double x) {
@@ -45,17 +45,18 @@ double roundedDown(double x) {
 }
 
 /// @param shown  of the variable, in SI.
-void print(const char* title, const ForceCurve& curve, double shown, const std::optional<double>& mass) {
+void printCurve(const char* title, const ForceCurve& curve, double shown, const std::optional<double>& mass) {
   if (curve.at.empty()) return void(std::printf("%s: the drives do not tell\n", title));
-  std::printf("%-*s  %-20s  rebound, force [%s]\n", kTitleWidth, title, "compression", mass ? "N" : "m/s^2");
-  const double most = std::max(-curve.at.front(), curve.at.back()), step = roundedDown(most / kRows);
+  std::printf("%-*s  %-20s  rebound, force [%s]\n", kCurveTitleWidth, title, "compression", mass ? "N" : "m/s^2");
+  const double most = std::max(-curve.at.front(), curve.at.back()), step = roundedDown(most / kCurveRows);
   const auto entry = [&](double x) {
     return curve.covers(x) ? formatted("%9.4g +- %.2g", mass.value_or(1.0) * curve.forceAt(x),
                                        mass.value_or(1.0) * kNinetyPercent * curve.stddevAt(x))
                            : std::string("        -");
   };
   for (int i = 1; i * step <= most; ++i)
-    std::printf("%*.4g  %-20s  %s\n", kTitleWidth, i * step / shown, entry(i * step).c_str(), entry(-i * step).c_str());
+    std::printf("%*.4g  %-20s  %s\n", kCurveTitleWidth, i * step / shown, entry(i * step).c_str(),
+                entry(-i * step).c_str());
 }
 
 json toJson(const char* variable, const ForceCurve& curve) {
@@ -179,8 +180,8 @@ void printCoupling(const VehicleCoupling& coupling, const std::vector<std::strin
 }
 
 void printCurves(const StrutCurves& curves, const std::optional<double>& mass) {
-  print("damper at [m/s]", curves.damper.absolute(), 1.0, mass);
-  print("spring at [mm]", curves.spring.absolute(), 1e-3, mass);
+  printCurve("damper at [m/s]", curves.damper.absolute(), 1.0, mass);
+  printCurve("spring at [mm]", curves.spring.absolute(), 1e-3, mass);
 }
 
 void addCurves(const StrutCurves& curves, json& into) {

@@ -31,6 +31,7 @@ json jsonOf(const std::vector<Item>& items) {
   return list;
 }
 
+/// @return null if there is none: the field is left out.
 template <class Value>
 json jsonOf(const std::optional<Value>& value) {
   return value ? jsonOf(*value) : json();

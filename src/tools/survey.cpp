@@ -75,12 +75,6 @@ double measurePeriod(const ImuBags& bags) {
   return *period;
 }
 
-void requireFittingPeriod(const ImuBags& bags, double sample_period) {
-  std::size_t count = kCheckedMessages;
-  const std::string short_period = describeShortPeriod(sample_period, stampSpacing(bags, count));
-  if (!short_period.empty()) throw std::invalid_argument(short_period);
-}
-
 BagOptions readBagOptions(const po::variables_map& values) {
   BagOptions options = readLiveOptions(values);
   MonitorOptions& common = options.settings.common.monitor;
@@ -98,6 +92,12 @@ BagOptions readBagOptions(const po::variables_map& values) {
       options.clock_offset = rough->clock_offset;
   }
   return options;
+}
+
+void requireFittingPeriod(const ImuBags& bags, double sample_period) {
+  std::size_t count = kCheckedMessages;
+  const std::string short_period = describeShortPeriod(sample_period, stampSpacing(bags, count));
+  if (!short_period.empty()) throw std::invalid_argument(short_period);
 }
 
 }  // namespace suspension_health_monitor

@@ -90,7 +90,7 @@ void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, Stru
   }
 }
 
-bool VehicleSpectra::gyroIsDeadIn(long half) {
+bool VehicleSpectra::checkGyro(long half) {
   if (vehicle_.numTopsOfBody() == 0) return false;
   std::array<double, 3> powers;
   for (const BodyChannel channel : {kAz, kWx, kWy}) {

@@ -25,8 +25,10 @@ SensorNoise noiseOfOwnSensors(std::size_t num_struts) {
 
 SensorNoise noiseOfStrutTops(const VehicleChannels& channels, Stamp period, double gyro_noise) {
   SensorNoise noise;
-  // Streams are numbered without a gap: at most the body's six, two of every strut, the forces and the road.
-  const std::size_t num_streams = 6 + 2 * channels.struts.size() + channels.known_forces.size() + 1;
+  std::size_t num_streams = channels.body_imu ? *channels.body_imu + 6 : 0;
+  for (const VehicleChannels::Strut& strut : channels.struts)
+    num_streams = std::max({num_streams, strut.unsprung + 1, strut.sprung.value_or(0) + 1});
+  for (const std::size_t force : channels.known_forces) num_streams = std::max(num_streams, force + 1);
   const StrutTops still(period, channels);
   const int fill = 2 * still.delay();
   // What follows one wrong reading of a stream.

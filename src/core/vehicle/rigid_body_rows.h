@@ -79,8 +79,8 @@ class RigidBody {
 
   /// @return M/Iyy, M/Ixx, x and y of the centre of gravity; 0 what is not seen.
   Eigen::Vector4d massAndPlace(const Eigen::VectorXd& parameters) const;
-  /// @return false: no vehicle has a body with such numbers. Laws with memory may look like bars: so is the body that
-  /// fits together with such bars.
+  /// @return false: no vehicle has a body with such numbers. Laws with memory may look like bars; the body that
+  /// fits together with such bars is none of a vehicle.
   bool isVehicle(const Eigen::VectorXd& parameters) const;
 
  private:

@@ -145,7 +145,7 @@ const TopEstimate* VehicleBlocks::work() {
 void VehicleBlocks::takeBlock() {
   const long half = next_half_++;
   if (!spectra_->isWhole(half)) return;
-  if (spectra_->gyroIsDeadIn(half)) return;
+  if (spectra_->checkGyro(half)) return;
   for (std::size_t i = 0; i < size(); ++i) spectra_->fill(i, half, estimators_[i].next());
   if (!isAlone()) {
     fillNeighbours();

@@ -1,12 +1,10 @@
 // The mistakes that VehicleClaims looks for.
-#include <Eigen/LU>
 #include <algorithm>
 #include <functional>
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/vehicle/tuning.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_claims.h"
 
 namespace suspension_health_monitor {

@@ -25,7 +25,6 @@ std::optional<TopEstimate> VehicleBlocks::overTheDrive(std::size_t strut) {
   return result;
 }
 
-// The damping that other struts see of this one includes what its friction acts as.
 template <class EstimateOf>
 bool VehicleBlocks::setRows(const EstimateOf& estimate_of, BodyRows& rows) const {
   const std::size_t n = size();
@@ -44,6 +43,7 @@ bool VehicleBlocks::setRows(const EstimateOf& estimate_of, BodyRows& rows) const
       const int at = rateColumn(columns_, i, j);
       selection(j, at) = selection(n + j, at + 1) = 1.0;
     }
+    // The damping that other struts see of this one includes what its friction acts as.
     if (looksForFriction()) selection(i, columns_.firstForce()) = estimate->frictionGain();
     const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kMostStruts, 1> row = selection * estimate->theta;
     rows.rate.row(i) = row.head(n).transpose();
@@ -52,7 +52,7 @@ bool VehicleBlocks::setRows(const EstimateOf& estimate_of, BodyRows& rows) const
     const int known = columns_.firstForce() + firstKnownForce();
     rows.force.row(i) = estimate->theta.segment(known, rows.force.cols()).transpose();
     const auto variances = estimate->covariance.diagonal().segment(known, rows.force.cols()).array();
-    // Of a force that has not changed it is 0.
+    // The variance is 0 of a force that has not changed.
     rows.force_stddev.row(i) = (variances > 0.0).select(variances.sqrt(), HUGE_VAL).matrix().transpose();
   }
   return true;

@@ -47,10 +47,10 @@ enum class InertiaDoubt {
 
 /// How a rigid body's mass is spread.
 struct BodyInertia {
-  InertiaDoubt doubt = InertiaDoubt::kNone;  ///< else nothing of it is known
-  Measured mass_to_pitch_inertia{};          ///< M/Iyy [1/m^2]
-  Measured mass_to_roll_inertia{};           ///< M/Ixx [1/m^2]
-  Measured x{}, y{};                         ///< of the centre of gravity, from where positions count [m]
+  InertiaDoubt doubt = InertiaDoubt::kUncertain;  ///< kNone: what follows is known
+  Measured mass_to_pitch_inertia{};               ///< M/Iyy [1/m^2]
+  Measured mass_to_roll_inertia{};                ///< M/Ixx [1/m^2]
+  Measured x{}, y{};                              ///< of the centre of gravity, from where positions count [m]
 };
 
 /// By strut x ahead and y to the left of the strut's top, from any one point of the body [m].

@@ -45,12 +45,13 @@ class VehicleSpectra {
   /// Fills in what was measured in the block that ends with this half block, but for the neighbours.
   void fill(std::size_t strut, long half, StrutBlock& block);
 
-  /// Whether the gyro of the body's IMU has died while the vehicle drove: an axis turns a tenth as much as on average,
-  /// or less, while the body moves up and down as before. By chance the power of a block, of a dozen independent
-  /// numbers or more, is not a hundred times smaller than on average. VehicleClaims finds a gyro that never turned.
+  /// Takes in a block of the body, and finds out whether its gyro has died while the vehicle drove: an axis turns a
+  /// tenth as much as on average, or less, while the body moves up and down as before. By chance the power of a block,
+  /// of a dozen independent numbers or more, is not a hundred times smaller than on average. VehicleClaims finds a gyro
+  /// that never turned.
   /// @return true if it was so in the newest block, up to this half block, in which the body moved.
-  bool gyroIsDeadIn(long half);
-  bool hasDeadGyro() const { return has_dead_gyro_; }  ///< at the last one of these
+  bool checkGyro(long half);
+  bool hasDeadGyro() const { return has_dead_gyro_; }  ///< at the last checkGyro()
 
  private:
   enum BodyChannel : std::size_t { kAz, kWx, kWy, kWzWx, kWzWy, kWx2Wy2, kBodyChannels };

@@ -27,8 +27,8 @@ struct BodyLevel {
   double lean = 0.0;  ///< angle between the IMU's z axis and upright [rad]
   /// Of the accelerations, by the size of gravity in them; 1 unless it is off by more than an offset makes.
   double gain = 1.0;
-  /// Gravity was the same in all parts of the while, but for half of that lean: else the vehicle braked, pulled away or
-  /// went round a bend.
+  /// Gravity was the same in all parts of the while, but for half of what isTurned() allows: else the vehicle braked,
+  /// pulled away or went round a bend.
   bool is_steady = true;
   /// What turns the IMU's axes upright, by the smallest angle; the identity unless isTurned().
   Eigen::Matrix3d mount = Eigen::Matrix3d::Identity();

@@ -70,7 +70,7 @@ class VehicleBlocks {
   std::optional<TopEstimate> overTheDrive(std::size_t strut = 0);
 
   /// What all blocks kept say of all tops, with the data alone. Allocates when `rows` is empty.
-  /// @return false: they do not know all tops.
+  /// @return false: they do not know all tops, and `rows` is incomplete.
   bool rows(BodyRows& rows) const;
   /// @return likewise all blocks since the first. Not for the sample path.
   std::optional<BodyRows> rowsOverTheDrive();
