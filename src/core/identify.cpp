@@ -79,7 +79,7 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
   result.rejected = rejected.byName();
   if (const auto warning = periodWarning(monitor)) result.warnings.push_back(*warning);
   const SensorReport& sensor = monitor.report().health.sensor;
-  // A wrong axis is told with the IMU's topic.
+  // The warnings about gravity name a wrong axis, with the topic of its IMU.
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated &&
       sensor.fault != SensorFault::kOtherAxis)
     result.warnings.push_back(describe(sensor));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bag_options.h"
+#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
 #include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
 #include "suspension_health_monitor/internal/vehicle/imu_survey.h"
 

@@ -37,15 +37,15 @@ json originOf(const po::variables_map& values, const std::vector<std::string>& t
           {"topics", topics}};
 }
 
-HtmlPage::Folder::Folder(const std::string& its_path) : path(its_path) {
+HtmlPage::Folder::Folder(const std::string& path) : path_(path) {
   std::error_code error;
-  made = fs::create_directory(path, error);
+  made_ = fs::create_directory(path, error);
   if (!fs::is_directory(path)) throw std::runtime_error(path + ": cannot be made: " + error.message());
 }
 
 HtmlPage::Folder::~Folder() {
   std::error_code not_empty;
-  if (made) fs::remove(path, not_empty);
+  if (made_) fs::remove(path_, not_empty);
 }
 
 HtmlPage::HtmlPage(const std::string& folder) : folder_(folder), file_((fs::path(folder) / kReportFile).string()) {}

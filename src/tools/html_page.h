@@ -26,12 +26,14 @@ class HtmlPage {
   void write(const std::string& page) { file_.commit(page); }
 
  private:
-  struct Folder : boost::noncopyable {
-    explicit Folder(const std::string& its_path);
+  class Folder : boost::noncopyable {
+   public:
+    explicit Folder(const std::string& path);
     ~Folder();
 
-    std::string path;
-    bool made;
+   private:
+    std::string path_;
+    bool made_;
   };
 
   Folder folder_;  // before the file, so that it is empty by the time that it is taken away

@@ -45,19 +45,23 @@ json toJson(const std::optional<double>& change, double stddev) {
   return {{"change", *change}, {"interval", {std::expm1(log - half), std::expm1(log + half)}}};
 }
 
-/// Compares what is known of a strut from one drive with what is known of it from another.
+/// What is known of a strut from one drive.
+struct StrutThere {
+  const IdentifyResult& found;
+  const StrutCurves& curves;
+};
+
 /// @param bag  name of that of `then`.
-json against(const std::string& bag, const IdentifyResult& now, const StrutCurves& curves_now,
-             const IdentifyResult& then, const StrutCurves& curves_then, double payload_range) {
+json against(const std::string& bag, const StrutThere& now, const StrutThere& then, double payload_range) {
   json result{{"bag", bag}};
-  addCurves(curves_then, result);
-  const std::optional<StrutOfDrive> today = strutOf(now), before = strutOf(then);
+  addCurves(then.curves, result);
+  const std::optional<StrutOfDrive> today = strutOf(now.found), before = strutOf(then.found);
   if (!today || !before) {
     result["change"] =
         "cannot be compared with " + bag + ": no valid estimate of " + (before ? "this drive" : "that drive");
     return result;
   }
-  const DriveChange change = changeOf(today->strut, curves_now, before->strut, curves_then, payload_range);
+  const DriveChange change = changeOf(today->strut, now.curves, before->strut, then.curves, payload_range);
   const StrutChange& strut = change.strut;
   result.update({{"change", describe(change, bag)},
                  {"damping", toJson(strut.damping, strut.damping_stddev)},
@@ -87,8 +91,8 @@ std::vector<json> againstOther(po::variables_map values, const std::vector<Ident
     const std::vector<IdentifyResult> then = recorded.identified().struts;
     const std::vector<StrutCurves> curves_then = curvesOfBags(options, then);
     for (std::size_t i = 0; i < now.size(); ++i)
-      changes.push_back(
-          against(bag, now[i], curves[i], then[i], curves_then[i], options.settings.struts[i].monitor.payload_range));
+      changes.push_back(against(bag, {now[i], curves[i]}, {then[i], curves_then[i]},
+                                options.settings.struts[i].monitor.payload_range));
   } catch (const TooLittleError& error) {
     throw TooLittleError(std::string("--") + kAgainst + ' ' + bag + ": " + error.what());
   }

@@ -54,8 +54,10 @@ WantedTopics findTopics(const BagFile& file, const ImuBags& bags, bool with_temp
   WantedTopics wanted;
   for (const BagConnection& connection : file.connections()) wanted[connection.id] = std::nullopt;
   for (std::size_t i = 0; i < bags.topics.size(); ++i)
-    bags.topics[i].is_force ? findTopic<geometry_msgs::WrenchStamped>(file, bags.topics[i], "WrenchStamped", i, wanted)
-                            : findTopic<sensor_msgs::Imu>(file, bags.topics[i], "Imu", i, wanted);
+    if (bags.topics[i].is_force)
+      findTopic<geometry_msgs::WrenchStamped>(file, bags.topics[i], "WrenchStamped", i, wanted);
+    else
+      findTopic<sensor_msgs::Imu>(file, bags.topics[i], "Imu", i, wanted);
   for (std::size_t i = 0; i < bags.temperature_topics.size(); ++i)
     for (const std::uint32_t connection : connectionsOf<sensor_msgs::Temperature>(file, bags.temperature_topics[i]))
       if (with_temperatures) wanted[connection] = {i, &decodeAs<sensor_msgs::Temperature>};

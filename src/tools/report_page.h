@@ -19,6 +19,19 @@ struct PageSource {
   json data;                             ///< as dataJson()
 };
 
+/// All that the page of a search is made of.
+struct ReportContent {
+  const Diagnosis& found;
+  const DiagnoseOptions& options;  ///< of the search, with sample_period
+  const PageSource& source;
+  const Comparison& before;  ///< the model as it is, fitted to all samples
+  const Comparison* after;   ///< with the effects found; none if there are none
+};
+
+/// The drives over time: measured z'' and the residuals before and after, packed as 16-bit numbers, with the stretches
+/// that were held out and a window that is worth looking at first.
+json drivesJson(const ReportContent& content);
+
 /// The pages of a search: of every strut the verdict, the error step by step, measured against predicted over time, the
 /// residual from all sides, the force that was missing, every candidate, and how to use the model. Recordings beyond an
 /// hour or so are thinned to the extremes of short ranges, so that the page stays below 5 MB. Of one strut it is

@@ -193,7 +193,8 @@ json wholeJson(const AskedVehicle& vehicle, const VehicleCoupling& coupling, con
   json whole{{"silent", gaps.toJson()}};
   if (vehicle.isStrutAlone()) return whole;
   const std::vector<std::string>& names = vehicle.names;
-  whole["struts"] = whole["known_forces"] = json::object();
+  whole["struts"] = json::object();
+  whole["known_forces"] = json::object();
   whole["coupling"] = couplingJson(coupling.ratios, names);
   whole["coupling_stddevs"] = couplingJson(coupling.stddevs, names);
   whole["model_error"] = coupling.model_error;

@@ -1,3 +1,5 @@
+#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -5,8 +7,6 @@
 #include <complex>
 #include <random>
 #include <vector>
-
-#include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
 
 namespace suspension_health_monitor {
 namespace {

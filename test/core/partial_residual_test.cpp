@@ -27,9 +27,9 @@ DriveRecord drivenWith(const std::string& name, double coefficient, std::vector<
 
 std::vector<PartialResidual> residualsBy(const StrutModel& model, const DriveRecord& record,
                                          const std::vector<StrutState>& initial) {
-  const auto compared = compareSegments({&record}, model, initial);
+  const std::optional<ComparedDrives> compared = compareSegments({&record}, model, initial);
   EXPECT_TRUE(compared);
-  return partialResiduals(compared->first, compared->second, model);
+  return partialResiduals(compared->segments, compared->motion, model);
 }
 
 /// By a model of the car with one effect.

@@ -16,12 +16,11 @@ namespace {
 /// @param taps  of the filter that the drive has passed.
 void addMissingForce(const StrutModel& model, const std::vector<StrutState>& motion, double mean,
                      const std::vector<double>& taps, ComparedSegment& segment) {
-  const auto [travel_error, rate_error] =
-      motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
+  const MotionError wrong = motionError(segment.residuals(), mean, segment.period, model.stiffness_to_mass);
   std::vector<double>& force = segment.missing_force;
   force.resize(segment.size());
   for (std::size_t k = 0; k < segment.size(); ++k)
-    force[k] = model.force(segment.travel[k] - travel_error[k], segment.travel_rate[k] - rate_error[k],
+    force[k] = model.force(segment.travel[k] - wrong.travel[k], segment.travel_rate[k] - wrong.travel_rate[k],
                            segment.timeDriven(k), motion[k].memory.data());
   passLow(taps, force);
   model.read(segment.body, segment.period, force);
@@ -131,6 +130,11 @@ std::vector<std::vector<std::pair<double, double>>> heldOutSpans(const Records& 
   return spans;
 }
 
+int horizonFor(const CompareOptions& options, const LinearStrut& strut, double period) {
+  if (options.horizon_samples) return *options.horizon_samples;
+  return horizonSamples(proposeHorizon(strut.damping_to_mass, strut.stiffness_to_mass), period);
+}
+
 /// @return what is the matter, if anything.
 Shortcoming fill(const Records& records, const CompareOptions& options, Comparison& comparison) {
   const auto report = [&](double share) {
@@ -140,9 +144,9 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!comparison.model.isDampedSpring()) return Shortcoming::kNoDampedSpring;
   const std::optional<std::vector<StrutState>> initial = settleModel(records, options, comparison);
   if (!initial) return Shortcoming::kNoStableFit;
-  auto compared = compareSegments(records, comparison.model, *initial);
+  std::optional<ComparedDrives> compared = compareSegments(records, comparison.model, *initial);
   if (!compared) return Shortcoming::kNoStableFit;
-  comparison.segments = std::move(compared->first);
+  comparison.segments = std::move(compared->segments);
   const auto free_run = errorOf(mapped(comparison.segments, &ComparedSegment::measured),
                                 mapped(comparison.segments, &ComparedSegment::predicted));
   if (!free_run) return Shortcoming::kTooShort;
@@ -165,10 +169,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   IntegralFilterOptions filter;
   filter.period = records.front()->period();
   const LinearStrut strut = comparison.model.linearPart();
-  filter.horizon_samples = comparison.horizon_samples =
-      options.horizon_samples
-          ? *options.horizon_samples
-          : horizonSamples(proposeHorizon(strut.damping_to_mass, strut.stiffness_to_mass), filter.period);
+  filter.horizon_samples = comparison.horizon_samples = horizonFor(options, strut, filter.period);
   comparison.one_step = oneStepError(comparison.segments, comparison.model, filter);
   comparison.noise_floor = estimateNoiseFloor(records, comparison.model);
   if (!(comparison.noise_floor > 0.0)) return Shortcoming::kTooShort;
@@ -185,7 +186,7 @@ Shortcoming fill(const Records& records, const CompareOptions& options, Comparis
   if (!views) return Shortcoming::kTooShort;
   comparison.views = std::move(*views);
   comparison.where = findFailures(comparison.views, strut, comparison.noise_floor);
-  comparison.forces = partialResiduals(comparison.segments, compared->second, comparison.model);
+  comparison.forces = partialResiduals(comparison.segments, compared->motion, comparison.model);
   report(1.0);
   return Shortcoming::kNone;
 }
@@ -198,10 +199,10 @@ std::vector<double> ComparedSegment::residuals() const {
   return all;
 }
 
-std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegments(
-    const Records& records, const StrutModel& model, const std::vector<StrutState>& initial) {
-  std::vector<ComparedSegment> segments;
-  FreeMotion motion;
+std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
+                                              const std::vector<StrutState>& initial) {
+  ComparedDrives compared;
+  auto& [segments, motion] = compared;
   for (std::size_t r = 0; r < records.size(); ++r)
     for (const DriveSegment& source : records[r]->segments()) {
       std::vector<double> predicted;
@@ -215,7 +216,7 @@ std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegmen
   const Segments sources = segmentsOf(records);
   for (std::size_t i = 0; i < segments.size(); ++i)
     addMissingForce(model, motion[i], mean, sources[i]->taps, segments[i]);
-  return std::pair(std::move(segments), std::move(motion));
+  return compared;
 }
 
 Comparison compareModel(const Records& records, const StrutModel& model, const CompareOptions& options) {

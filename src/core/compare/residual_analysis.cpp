@@ -1,7 +1,14 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "bin_range.h"
 #include "residual_series.h"
+#include "suspension_health_monitor/internal/compare/comparison.h"
+#include "suspension_health_monitor/internal/compare/tuning.h"
+#include "suspension_health_monitor/internal/math/statistics.h"
 
 namespace suspension_health_monitor {
 namespace {
@@ -10,27 +17,35 @@ const std::vector<double> kShares{0.0, 0.01, 0.03, 0.06, 0.1,  0.2,  0.3,  0.4, 
                                   0.6, 0.7,  0.8,  0.9,  0.94, 0.97, 0.99, 1.0};
 const std::vector<double> kLoopShares{0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 1.0};
 
-/// @param bin  whose mean, standard error and rms are sums until finish(): of the missing force, of its squares, and of
-/// the residual's squares.
-void add(double missing, double residual, ResidualBin& bin) {
-  ++bin.count;
-  bin.mean += missing;
-  bin.standard_error += square(missing);
-  bin.rms += square(residual);
-}
+/// Sums over the samples of a bin.
+struct BinSums {
+  double count = 0.0, missing = 0.0, missing_square = 0.0, residual_square = 0.0;
 
-void finish(double memory, ResidualBin& bin) {
-  if (bin.count == 0) return;
-  const auto count = static_cast<double>(bin.count);
-  bin.mean /= count;
-  bin.rms = std::sqrt(bin.rms / count);
-  const double variance = std::max(0.0, bin.standard_error / count - square(bin.mean));
-  bin.standard_error = count < 2.0 ? 0.0 : std::sqrt(variance * memory / (count - 1.0));
-}
+  void add(double m, double r) {
+    count += 1.0;
+    missing += m;
+    missing_square += square(m);
+    residual_square += square(r);
+  }
 
-std::vector<ResidualBin> binsBetween(const std::vector<double>& edges) {
-  std::vector<ResidualBin> bins;
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) bins.push_back({edges[i], edges[i + 1]});
+  void fill(double memory, ResidualBin& bin) const {
+    bin.count = static_cast<std::size_t>(count);
+    if (count == 0.0) return;
+    bin.mean = missing / count;
+    bin.rms = std::sqrt(residual_square / count);
+    if (count < 2.0) return;
+    const double variance = std::max(0.0, missing_square / count - square(bin.mean));
+    bin.standard_error = std::sqrt(variance * memory / (count - 1.0));
+  }
+};
+
+std::vector<ResidualBin> makeBins(const std::vector<double>& edges, const std::vector<BinSums>& sums, double memory) {
+  std::vector<ResidualBin> bins(sums.size());
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].from = edges[i];
+    bins[i].to = edges[i + 1];
+    sums[i].fill(memory, bins[i]);
+  }
   return bins;
 }
 
@@ -82,24 +97,23 @@ std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<C
   std::vector<TimeBin> bins;
   forEachDrive(segments, [&](std::size_t first, std::size_t last, double from, double to) {
     const auto count = static_cast<std::size_t>(std::max(1.0, std::floor((to - from) / width)));
-    const std::size_t before = bins.size();
-    bins.resize(before + count);
+    std::vector<BinSums> sums(count);
     std::vector<Eigen::Matrix3d> products(count, Eigen::Matrix3d::Zero());
     for (std::size_t s = first; s < last; ++s)
       for (std::size_t k = 0; k < segments[s].size(); ++k) {
         const double share = (segments[s].time(k) - from) / (to - from);
         const std::size_t i = std::min(count - 1, static_cast<std::size_t>(share * static_cast<double>(count)));
         const std::size_t n = series.begins[s] + k;
-        add(series.residual[n], series.residual[n], bins[before + i]);
+        sums[i].add(series.residual[n], series.residual[n]);
         const Eigen::Vector3d row(series.rate[n], series.travel[n], series.missing[n]);
         products[i] += row * row.transpose();
       }
     for (std::size_t i = 0; i < count; ++i) {
-      TimeBin& bin = bins[before + i];
+      TimeBin& bin = bins.emplace_back();
       bin.drive = segments[first].drive;
       bin.from = from + (to - from) * static_cast<double>(i) / static_cast<double>(count);
       bin.to = from + (to - from) * static_cast<double>(i + 1) / static_cast<double>(count);
-      finish(series.residual_memory, bin);
+      sums[i].fill(series.residual_memory, bin);
       fillErrors(products[i], series.missing_memory, bin);
     }
   });
@@ -109,23 +123,23 @@ std::vector<TimeBin> binByTime(const ResidualSeries& series, const std::vector<C
 /// @param x  one value per sample.
 std::vector<ResidualBin> binByQuantile(const ResidualSeries& series, const Eigen::VectorXd& x) {
   const std::vector<double> edges = quantiles(x, kShares);
-  std::vector<ResidualBin> bins = binsBetween(edges);
-  for (std::size_t n = 0; n < series.size(); ++n) add(series.missing[n], series.residual[n], bins[binOf(edges, x[n])]);
-  for (ResidualBin& bin : bins) finish(series.missing_memory, bin);
-  return bins;
+  std::vector<BinSums> sums(edges.size() - 1);
+  for (std::size_t n = 0; n < series.size(); ++n) sums[binOf(edges, x[n])].add(series.missing[n], series.residual[n]);
+  return makeBins(edges, sums, series.missing_memory);
 }
 
 DirectionLoop compareDirections(const ResidualSeries& series) {
   const std::vector<double> edges = quantiles(series.travel, kLoopShares);
-  DirectionLoop loop;
-  loop.compressing = loop.extending = binsBetween(edges);
+  std::vector<BinSums> forth(edges.size() - 1), back(edges.size() - 1);
   for (std::size_t n = 0; n < series.size(); ++n)
-    add(series.missing[n], series.residual[n],
-        (series.rate[n] > 0.0 ? loop.compressing : loop.extending)[binOf(edges, series.travel[n])]);
+    (series.rate[n] > 0.0 ? forth : back)[binOf(edges, series.travel[n])].add(series.missing[n], series.residual[n]);
+  DirectionLoop loop;
+  loop.compressing = makeBins(edges, forth, series.missing_memory);
+  loop.extending = makeBins(edges, back, series.missing_memory);
   double weight = 0.0, variance = 0.0;
-  for (std::size_t i = 0; i < loop.compressing.size(); ++i) {
-    ResidualBin &c = loop.compressing[i], &e = loop.extending[i];
-    for (ResidualBin* bin : {&c, &e}) finish(series.missing_memory, *bin);
+  for (std::size_t i = 0; i < forth.size(); ++i) {
+    const ResidualBin& c = loop.compressing[i];
+    const ResidualBin& e = loop.extending[i];
     if (std::min(c.count, e.count) < kFewestForScatter) continue;
     const auto count = static_cast<double>(c.count + e.count);
     weight += count;
@@ -144,17 +158,17 @@ ForceSurface mapForce(const ResidualSeries& series) {
   ForceSurface surface;
   surface.travel_edges = edgesAround0(series.travel);
   surface.rate_edges = edgesAround0(series.rate);
-  std::vector<ResidualBin> bins(cells * cells);
+  std::vector<BinSums> sums(cells * cells);
   for (std::size_t n = 0; n < series.size(); ++n)
-    add(series.missing[n], series.residual[n],
-        bins[binOf(surface.travel_edges, series.travel[n]) * cells + binOf(surface.rate_edges, series.rate[n])]);
+    sums[binOf(surface.travel_edges, series.travel[n]) * cells + binOf(surface.rate_edges, series.rate[n])].add(
+        series.missing[n], series.residual[n]);
   surface.mean = surface.standard_error = surface.rms = Eigen::MatrixXd::Zero(cells, cells);
   surface.count = Eigen::MatrixXi::Zero(cells, cells);
   double explained = 0.0;
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j) {
-      ResidualBin& cell = bins[i * cells + j];
-      finish(series.missing_memory, cell);
+      ResidualBin cell;
+      sums[i * cells + j].fill(series.missing_memory, cell);
       surface.count(i, j) = static_cast<int>(cell.count);
       if (cell.count < 2) continue;
       surface.mean(i, j) = cell.mean;

@@ -12,8 +12,7 @@ constexpr double kForgotten = 1.0 / 3.0;  // of the natural frequency: what is s
 constexpr double kPadding = 6.0;          // times of the slowest frequency that is: ends do not reach each other,
                                           // or as many samples as there are: then no integral reaches further
 
-std::pair<std::vector<double>, std::vector<double>> motionError(const std::vector<double>& residual, double mean,
-                                                                double period, double stiffness_to_mass) {
+MotionError motionError(const std::vector<double>& residual, double mean, double period, double stiffness_to_mass) {
   const std::size_t count = residual.size();
   const double slowest = kForgotten * std::sqrt(stiffness_to_mass);
   const double padding = std::min(kPadding / (slowest * period), static_cast<double>(count));
@@ -32,12 +31,12 @@ std::pair<std::vector<double>, std::vector<double>> motionError(const std::vecto
     twice[i] = -spectrum[i] * kept / square(omega);
   }
   once[length / 2] = 0.0;  // imaginary, which a real signal cannot have there
-  std::vector<double> travel, travel_rate;
-  fft.inv(travel_rate, once);
-  fft.inv(travel, twice);
-  travel_rate.resize(count);
-  travel.resize(count);
-  return {std::move(travel), std::move(travel_rate)};
+  MotionError error;
+  fft.inv(error.travel_rate, once);
+  fft.inv(error.travel, twice);
+  error.travel_rate.resize(count);
+  error.travel.resize(count);
+  return error;
 }
 
 }  // namespace suspension_health_monitor

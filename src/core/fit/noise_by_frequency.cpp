@@ -67,6 +67,25 @@ double mostNoise(const Eigen::ArrayXXd& readings, double averages) {
   return lowest / (1.0 - kProven / std::sqrt(kParts * averages));
 }
 
+/// @param gain  |G|^2 by frequency.  @param resistance  the sum of 1 / S over the parts.
+/// @param natural  natural frequency.  @param most  of the wheel's noise, as mostNoise().
+/// @return the most of the residual's power that noise explains in a band if the wheel's is r times the body's.
+double mostExplained(double r, const std::vector<double>& gain, const std::vector<double>& resistance,
+                     std::size_t natural, double most) {
+  double largest = 0.0;
+  for (std::size_t first = 1; first <= natural; ++first) {
+    double weight = 0.0, resisted = 0.0;  // sums of g, and of g^2 / S, over frequencies and parts
+    for (std::size_t f = first; f < gain.size(); ++f) {
+      const double g = 1.0 + r * gain[f];
+      weight += kParts * g;
+      resisted += g * g * resistance[f];
+      const double level = r > 1.0 ? std::min(weight / resisted, most / r) : weight / resisted;
+      if (f > 2 * natural) largest = std::max(largest, level * weight);
+    }
+  }
+  return largest;
+}
+
 /// Noise of a sensor that is louder than the other's, or that a sensor has filtered, as most do inside: white within a
 /// band, next to nothing beyond it. An interpolation (noise_floor.cpp) sees neither. What a free run leaves is such
 /// noise if it is white within a band of its own, and the same in every quarter of the drives; what a law leaves is
@@ -103,17 +122,7 @@ NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double 
   const double beyond_chance = 1.0 + kProven / std::sqrt(kParts * averages * static_cast<double>(count));
   double white = 0.0, louder = 1.0;
   for (const double r : kRatios) {
-    double largest = 0.0;
-    for (std::size_t first = 1; first <= natural; ++first) {
-      double weight = 0.0, resisted = 0.0;  // sums of g, and of g^2 / S, over frequencies and parts
-      for (std::size_t f = first; f < count; ++f) {
-        const double g = 1.0 + r * gain[f];
-        weight += kParts * g;
-        resisted += g * g * resistance[f];
-        const double level = r > 1.0 ? std::min(weight / resisted, most / r) : weight / resisted;
-        if (f > 2 * natural) largest = std::max(largest, level * weight);
-      }
-    }
+    const double largest = mostExplained(r, gain, resistance, natural, most);
     if (largest <= beyond_chance * white) continue;
     white = largest;
     louder = r;

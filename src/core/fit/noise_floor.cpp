@@ -97,11 +97,11 @@ class FreeFormLaws {
     double count = 0.0;
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       const std::vector<double>& residual = (*residuals)[s];
-      const auto [travel_error, rate_error] =
+      const MotionError wrong =
           motionError(residual, meanOf({residual}), segments_[s]->period, model.stiffness_to_mass);
       for (std::size_t k = 0; k < residual.size(); ++k) {
-        travel_ += square(motion_[s][k].travel -= travel_error[k]);
-        travel_rate_ += square(motion_[s][k].travel_rate -= rate_error[k]);
+        travel_ += square(motion_[s][k].travel -= wrong.travel[k]);
+        travel_rate_ += square(motion_[s][k].travel_rate -= wrong.travel_rate[k]);
       }
       count += static_cast<double>(residual.size());
     }

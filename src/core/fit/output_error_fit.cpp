@@ -203,7 +203,8 @@ double meanSquare(const Residuals& residuals) {
 }
 
 FitOutcome withoutFit(const Records& records, const StrutModel& model) {
-  ModelFit fit{model, {}, {}, {}, {}};
+  ModelFit fit;
+  fit.model = model;
   const Segments segments = segmentsOf(records);
   if (!addResiduals(segments, std::vector<StrutState>(segments.size()), fit)) return FitFailure::kRunsAway;
   return fit;

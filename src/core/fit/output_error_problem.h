@@ -40,8 +40,8 @@ inline void carryMemories(const StrutModel& model, const Segments& segments, std
 class OutputErrorProblem {
  public:
   /// @param masks  none: all samples.  @param outlier  where a residual begins to count as one [m/s^2].
-  /// @param states  a first guess.
-  /// The arguments must outlive this object.
+  /// @param states  a first guess, with the memories that the segments begin with.
+  /// All arguments but the masks must outlive this object.
   OutputErrorProblem(const Segments& segments, const std::vector<SampleMask>& masks, const Parameterization& parameters,
                      double outlier, const std::vector<StrutState>& states)
       : segments_(segments),

@@ -11,8 +11,8 @@
 
 namespace suspension_health_monitor {
 
-inline constexpr Eigen::Index kWhitening =
-    10;  // order: two for each resonance of body and wheel, and for sensors' filters
+/// Order: two for each resonance of body and wheel, and for sensors' filters.
+inline constexpr Eigen::Index kWhitening = 10;
 
 /// A series behind an FIR filter that begins where it has its past; 0 before.
 /// @param taps  the newest sample's last.

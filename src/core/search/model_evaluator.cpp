@@ -152,11 +152,11 @@ std::optional<EvaluatedModel> ModelEvaluator::screen(const ForceEffect& effect, 
   // A law without a number inside is linear in all that is fitted: one start is as good as another.
   const auto start = effect.shapes.empty() ? std::nullopt : row_start.with(effect);
   std::optional<ScreenedModel> second = start ? screening.asItIs(start->model) : std::nullopt;
-  const bool failed = screened->failure != FitFailure::kNone;
-  if (second && (failed || second->training_gain > screened->training_gain)) std::swap(*screened, *second);
+  const bool has_failed = screened->failure != FitFailure::kNone;
+  if (second && (has_failed || second->training_gain > screened->training_gain)) std::swap(*screened, *second);
   EvaluatedModel result = expected(effect.name, *screened, current);
   if (!second) return result;
-  if (!failed) result.second_start = second->model;
+  if (!has_failed) result.second_start = second->model;
   const double to_gain = held_out_.trainingError(current.fit.residuals);
   result.training_gain = std::max(result.training_gain, start->share * to_gain);
   return result;

@@ -63,12 +63,14 @@ inline Polyline timeByFrequency(Polyline windows) {
 /// s of the last effect over time.
 inline Polyline lastMemories(const ModelFit& fit, const Records& records) {
   Polyline points;
-  FreeMotion motion;
+  std::vector<double> predicted;
+  std::vector<StrutState> motion;
   const Segments segments = segmentsOf(records);
-  freeRunResiduals(fit.model, segments, fit.initial, &motion);
-  for (std::size_t s = 0; s < segments.size(); ++s)
-    for (std::size_t k = 0; k < motion[s].size(); ++k)
-      points.emplace_back(segments[s]->timeDriven(k), motion[s][k].memory[fit.model.effects.size() - 1].s);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (!runFree(fit.model, *segments[s], fit.initial[s], predicted, &motion)) continue;
+    for (std::size_t k = 0; k < motion.size(); ++k)
+      points.emplace_back(segments[s]->timeDriven(k), motion[k].memory[fit.model.effects.size() - 1].s);
+  }
   return points;
 }
 

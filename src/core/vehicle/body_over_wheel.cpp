@@ -1,10 +1,11 @@
+#include "suspension_health_monitor/internal/vehicle/body_over_wheel.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/vehicle/imu_spectra.h"
 
 namespace suspension_health_monitor {
 namespace {

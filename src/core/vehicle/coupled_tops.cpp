@@ -74,18 +74,23 @@ void VehicleSpectra::fill(std::size_t strut, long half, StrutBlock& block) {
 }
 
 void VehicleSpectra::fillByBody(const Eigen::Vector3d& position, long half, StrutBlock& block) {
-  const std::tuple<BodyChannel, std::size_t, double> parts[] = {{kAz, 0, 1.0},
-                                                                {kWx, 1, position.y()},
-                                                                {kWy, 1, -position.x()},
-                                                                {kWzWx, 0, position.x()},
-                                                                {kWzWy, 0, position.y()},
-                                                                {kWx2Wy2, 0, -position.z()}};
+  struct Part {
+    BodyChannel channel;
+    std::size_t derivatives;
+    double factor;
+  };
+  const Part parts[] = {{kAz, 0, 1.0},
+                        {kWx, 1, position.y()},
+                        {kWy, 1, -position.x()},
+                        {kWzWx, 0, position.x()},
+                        {kWzWy, 0, position.y()},
+                        {kWx2Wy2, 0, -position.z()}};
   block.body.setZero();
-  for (const auto& [channel, derivatives, factor] : parts) {
-    streams_[body_].sumHalves(half, channel, channel_);
+  for (const Part& part : parts) {
+    streams_[body_].sumHalves(half, part.channel, channel_);
     for (std::size_t p = 0; p < 3; ++p) {
-      modulation_.apply(p + derivatives, channel_, derivative_);
-      block.body.col(p) += factor * derivative_;
+      modulation_.apply(p + part.derivatives, channel_, derivative_);
+      block.body.col(p) += part.factor * derivative_;
     }
   }
 }

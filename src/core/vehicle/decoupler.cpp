@@ -48,9 +48,10 @@ Decoupler::Decoupler(double period, const BodyRows& rows, const std::vector<Stru
                      const std::vector<double>& low_pass)
     : period_(period), taps_(low_pass.empty() ? std::vector<double>{1.0} : low_pass) {
   setRows(rows);
-  double slowest = 0.0;  // natural period [s], below in samples, even
+  double slowest = 0.0;  // natural period [s]
   for (const StrutModel& model : models) slowest = std::max(slowest, 2.0 * M_PI / std::sqrt(model.stiffness_to_mass));
   slowest = std::min(slowest, kVehicleTuning.longest_period);
+  // in samples, even
   const int natural_period = 2 * std::max(1, static_cast<int>(std::lround(slowest / (2.0 * period))));
   const double forgetting = std::exp(-period / kVehicleTuning.mean_memory);
   force_means_.assign(rows.force.cols(), LimitedMean(forgetting));

@@ -31,6 +31,11 @@ std::vector<FailureRegion> findFailures(const ResidualViews& views, const Linear
 /// @return the range of nearly all values: single extremes would stretch an axis.
 std::pair<double, double> coveredRange(Eigen::VectorXd values);
 
+struct ComparedDrives {
+  std::vector<ComparedSegment> segments;
+  FreeMotion motion;  ///< of the free runs
+};
+
 /// Runs the model freely over all segments of all drives.
 ///
 /// The residual r of a free run is not yet the force that is missing: the run's travel is wrong by -(r integrated
@@ -40,10 +45,9 @@ std::pair<double, double> coveredRange(Eigen::VectorXd values);
 /// J an integral that forgets what is slower than a third of the natural frequency w0 (or drift would win): each is
 /// multiplied by w^4 / (w^4 + (w0/3)^4), without a change of phase. A constant in r is left out.
 /// @param initial  per segment of all records.
-/// @return the segments and the motion of the free runs; nothing if the model runs away.
-/// @pre model.stiffness_to_mass > 0.
-std::optional<std::pair<std::vector<ComparedSegment>, FreeMotion>> compareSegments(
-    const Records& records, const StrutModel& model, const std::vector<StrutState>& initial);
+/// @return nothing if the model runs away.  @pre model.stiffness_to_mass > 0.
+std::optional<ComparedDrives> compareSegments(const Records& records, const StrutModel& model,
+                                              const std::vector<StrutState>& initial);
 
 /// @param segments  compared by the model.  @param motion  of the free run.
 /// @return one per effect of the model, in its order; what the reading does is no force.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace suspension_health_monitor {
@@ -32,12 +31,15 @@ void forHatsAt(double x, double y, int nodes, const Take& take) {
 /// Nodes either way of a free-form force over travel and travel rate.
 inline constexpr int kForceNodes = 6;
 
-/// By how much the motion of a free run is wrong. Its residual r over one segment tells it: r integrated twice and
-/// once, by an integral that forgets what is slower than a third of the natural frequency w0 (or drift would win): each
-/// is multiplied by w^4 / (w^4 + (w0/3)^4), without a change of phase.
+/// By how much the motion of a free run is wrong, per sample.
+struct MotionError {
+  std::vector<double> travel, travel_rate;  ///< [m], [m/s]: to be taken off the run's
+};
+
+/// The residual r of a free run over one segment tells it: r integrated twice and once, by an integral that forgets
+/// what is slower than a third of the natural frequency w0 (or drift would win): each is multiplied by
+/// w^4 / (w^4 + (w0/3)^4), without a change of phase.
 /// @param mean  of the residual, left out [m/s^2].  @param stiffness_to_mass  b0 > 0 [1/s^2].
-/// @return to be taken off the run's travel [m] and travel rate [m/s], per sample.
-std::pair<std::vector<double>, std::vector<double>> motionError(const std::vector<double>& residual, double mean,
-                                                                double period, double stiffness_to_mass);
+MotionError motionError(const std::vector<double>& residual, double mean, double period, double stiffness_to_mass);
 
 }  // namespace suspension_health_monitor

@@ -31,9 +31,9 @@ class HoldOut {
   std::vector<SampleMask> training;  ///< per segment of all records
 
   /// @param residuals  per segment of all records, as ModelFit has them.
-  /// @param outlier  a [m/s^2], > 0: the loss that fits minimise, 2 a^2 (sqrt(1 + (r/a)^2) - 1) instead of r^2. It is
-  /// softer on outliers, so that a few blows do not decide what is missing.
-  /// @return sum of squared residuals, or of losses, of each held-out stretch.
+  /// @param outlier  a [m/s^2], > 0, of the loss that fits minimise: 2 a^2 (sqrt(1 + (r/a)^2) - 1). It is softer on
+  /// outliers than r^2, which it is without `outlier`: a few blows do not decide what is missing.
+  /// @return sum of losses of each held-out stretch.
   std::vector<double> stretchLosses(const Residuals& residuals,
                                     double outlier = std::numeric_limits<double>::infinity()) const;
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -36,43 +35,15 @@ class SuspensionRegression {
   /// @param drifting_offset  true: the last two columns are c_o and c_r.
   /// @param effect_derivative  0: the effects' columns are I_0^2 f_j, as if f_j were an acceleration.
   explicit SuspensionRegression(const IntegralFilterOptions& options, std::size_t num_effects = 0,
-                                bool drifting_offset = false, int effect_derivative = 2)
-      : sprung_(2, options, 2),
-        relative_(2, options),
-        effects_(num_effects, LinearIntegralFilter(2, options, effect_derivative)),
-        effect_derivative_(effect_derivative),
-        drifting_offset_(drifting_offset),
-        offset_gain_(std::pow(options.horizon_samples * options.period, 2)),
-        drift_rows_(LinearIntegralFilter::window(2, options) / 2),
-        row_{Eigen::VectorXd::Zero(kNumStrutParameters + num_effects + (drifting_offset ? 2 : 0)), 0.0} {}
+                                bool drifting_offset = false, int effect_derivative = 2);
 
   /// Takes in the next sample of an uninterrupted uniform series (only the accelerations are used).
   /// @param effect_forces  f_j at this sample, one per effect.
   /// @return the row, owned by this object and valid until the next call; nullptr while the filter fills.
-  const RegressionRow* push(const CornerSample& sample, const double* effect_forces = nullptr) {
-    sprung_.push(sample.sprung_acceleration);
-    relative_.push(sample.unsprung_acceleration - sample.sprung_acceleration);
-    for (LinearIntegralFilter& effect : effects_) effect.push(*effect_forces++);
-    if (!sprung_.full()) return nullptr;
-    double* column = row_.regressor.data() + kNumStrutParameters;
-    row_.output = sprung_.output(2);
-    row_.regressor[kDampingToMass] = relative_.output(1);
-    row_.regressor[kStiffnessToMass] = relative_.output(0);
-    for (const LinearIntegralFilter& effect : effects_) *column++ = effect.output(effect_derivative_);
-    if (!drifting_offset_) return &row_;
-    column[0] = column[1] = 0.0;
-    if (row_.output == 0.0 && row_.saysNothing()) return &row_;  // readings that are lost have no offset
-    column[0] = offset_gain_;
-    column[1] = -drift_rows_ * offset_gain_;
-    return &row_;
-  }
+  const RegressionRow* push(const CornerSample& sample, const double* effect_forces = nullptr);
 
   /// Starts anew after a gap.
-  void reset() {
-    sprung_.reset();
-    relative_.reset();
-    for (LinearIntegralFilter& effect : effects_) effect.reset();
-  }
+  void reset();
 
  private:
   LinearIntegralFilter sprung_;
