@@ -6,8 +6,7 @@
 
 #include "../test/core/paper_drive.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 #include "tables.h"

@@ -39,8 +39,8 @@ std::vector<Setting> settings() {
       MonitorSettings options;
       options.sample_period = 0.02;
       options.forgetting_factor = forgetting_factor;
-      options.estimators.recursive.small_divisor_rule = divisor.rule;
-      options.estimators.recursive.small_divisor = divisor.value;
+      options.estimators.small_divisor_rule = divisor.rule;
+      options.estimators.small_divisor = divisor.value;
       char name[64];
       std::snprintf(name, sizeof name, "%g, %s %g", forgetting_factor, divisor.name, divisor.value);
       result.push_back({name, options});

@@ -25,18 +25,17 @@ MonitorSettings takeOptions(FuzzBytes& bytes) {
   MonitorSettings options;
   options.sample_period = kPeriods[bytes.choose(kPeriods.size())];
   options.integration_horizon = static_cast<double>(1 + bytes.choose(60)) * *options.sample_period;
-  EstimatorOptions& estimators = options.estimators;
-  estimators.rule = kRules[bytes.choose(kRules.size())];
+  options.rule = kRules[bytes.choose(kRules.size())];
   options.forgetting_factor = kForgetting[bytes.choose(kForgetting.size())];
   const auto flags = bytes.take<std::uint8_t>();
-  if ((flags & 1U) != 0) estimators.recursive.initial_variance_rule = InitialVariance::kAbsolute;
-  if ((flags & 2U) != 0) estimators.recursive.small_divisor_rule = SmallDivisor::kAbsolute;
-  if ((flags & 4U) != 0) estimators.recursive.small_divisor = 0.0;
-  if ((flags & 8U) != 0) estimators.recursive.scale_covariance_at_start = false;
+  if ((flags & 1U) != 0) options.estimators.initial_variance_rule = InitialVariance::kAbsolute;
+  if ((flags & 2U) != 0) options.estimators.small_divisor_rule = SmallDivisor::kAbsolute;
+  if ((flags & 4U) != 0) options.estimators.small_divisor = 0.0;
+  if ((flags & 8U) != 0) options.estimators.scale_covariance_at_start = false;
   if ((flags & 16U) != 0) options.nominal_damping_to_mass = 3.0;
   if ((flags & 32U) != 0) options.nominal_stiffness_to_mass = 13.8;
-  if ((flags & 64U) != 0) estimators.recursive.initial_variance = 1e15;
-  if ((flags & 128U) != 0) estimators.recursive.start_rows = 1;
+  if ((flags & 64U) != 0) options.estimators.initial_variance = 1e15;
+  if ((flags & 128U) != 0) options.estimators.start_rows = 1;
   bytes.take<std::uint8_t>();  // an option that is no more; inputs that were found keep their meaning
   return options;
 }

@@ -27,7 +27,7 @@ enum class Side : std::size_t { kSprung = 0, kUnsprung = 1, kRoad = 2 };
 ///   travel d = w - z [m], compression positive; travel rate v = w' - z' [m/s];
 ///   sprung acceleration y = z'' [m/s^2]; relative acceleration u = w'' - z'' [m/s^2].
 /// A constant common to both readings (gravity: an IMU at rest reads +9.81 on its up axis, REP 145) may stay in them:
-/// it cancels in u, and the regression row of y holds second differences only, see suspension_regression.h.
+/// it cancels in u, and the regression row of y holds second differences only, see SuspensionRegression.
 struct CornerSample {
   Stamp stamp{};
   double sprung_acceleration = 0.0;    ///< z'' [m/s^2], body side of the strut

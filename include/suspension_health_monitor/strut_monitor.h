@@ -13,8 +13,6 @@
 
 namespace suspension_health_monitor {
 
-class VehiclePipeline;
-
 /// Watches one strut live: readings of two accelerometers in, estimates, comparison and health out. It is all that the
 /// nodelet does, without messages.
 ///
@@ -73,7 +71,7 @@ class StrutMonitor {
   std::optional<double> samplePeriod() const;
 
  private:
-  std::unique_ptr<VehiclePipeline> pipeline_;
+  std::unique_ptr<class VehiclePipeline> pipeline_;
 };
 
 }  // namespace suspension_health_monitor

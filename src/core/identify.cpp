@@ -53,14 +53,6 @@ IdentifyResult identify(const std::vector<Drive>& drives, const IdentifyOptions&
   return identified(*strut.strut(), strut.overTheDrive(), strut.rejected());
 }
 
-std::optional<std::string> periodWarning(const SuspensionMonitor& monitor) {
-  if (monitor.input().period_fits) return std::nullopt;
-  return formatted(
-      "stamps come every %.6g s, but sample_period = %.6g [s]: ls and la are not valid; leave sample_period "
-      "out to have it measured",
-      monitor.input().mean_period, monitor.period());
-}
-
 IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate& over_the_drive,
                           const RejectCounts& rejected) {
   IdentifyResult result;
@@ -77,7 +69,11 @@ IdentifyResult identified(const SuspensionMonitor& monitor, const StrutEstimate&
   result.gaps = monitor.input().gaps;
   result.clock_jumps = monitor.input().restarts;
   result.rejected = rejected.byName();
-  if (const auto warning = periodWarning(monitor)) result.warnings.push_back(*warning);
+  if (!monitor.input().period_fits)
+    result.warnings.push_back(formatted(
+        "stamps come every %.6g s, but sample_period = %.6g [s]: ls and la are not valid; leave sample_period "
+        "out to have it measured",
+        monitor.input().mean_period, monitor.period()));
   const SensorReport& sensor = monitor.report().health.sensor;
   // The warnings about gravity name a wrong axis, with the topic of its IMU.
   if (sensor.fault != SensorFault::kNone && sensor.fault != SensorFault::kUnrelated &&

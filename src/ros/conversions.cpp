@@ -73,8 +73,8 @@ SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, co
   return msg;
 }
 
-SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& hidden,
-                      const std_msgs::Header& header) {
+SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& effects,
+                      const std::vector<ActiveMeasurementEffect>& faults, const std_msgs::Header& header) {
   SimulationTruth msg;
   msg.header = header;
   msg.damping_to_mass = truth.damping_to_mass;
@@ -84,10 +84,14 @@ SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& 
   msg.road = truth.road_height;
   msg.sprung_acceleration = truth.sprung_acceleration;
   msg.unsprung_acceleration = truth.unsprung_acceleration;
-  for (const ActiveEffect& active : hidden) {
-    msg.effect_names.push_back(active.effect.name);
-    msg.effect_coefficients.push_back(active.coefficient);
-  }
+  const auto add = [&](const std::string& name, double coefficient) {
+    msg.effect_names.push_back(name);
+    msg.effect_coefficients.push_back(coefficient);
+  };
+  for (const ActiveEffect& active : effects) add(active.effect.name, active.coefficient);
+  for (const ActiveMeasurementEffect& fault : faults)
+    for (std::size_t i = 0; i < fault.coefficients.size(); ++i)
+      add(nameOfCoefficient(fault.effect, i), fault.coefficients[i]);
   return msg;
 }
 

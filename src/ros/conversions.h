@@ -30,7 +30,8 @@ ParameterEstimate toMsg(const StrutEstimate& estimate, const char* estimator, co
 /// @param frame_id  of the sprung sensor; the stamp is that of the compared sample.
 ModelComparison toMsg(const ComparisonReport& comparison, const std::string& frame_id);
 SuspensionHealth toMsg(const MonitorReport& report, const Baseline& baseline, const std_msgs::Header& header);
-/// @param hidden  effects in the strut.
-SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& hidden, const std_msgs::Header& header);
+/// @param effects  of the simulated strut.  @param faults  of its readings.
+SimulationTruth toMsg(const DriveTruth& truth, const std::vector<ActiveEffect>& effects,
+                      const std::vector<ActiveMeasurementEffect>& faults, const std_msgs::Header& header);
 
 }  // namespace suspension_health_monitor

@@ -96,7 +96,7 @@ void InputTask::describe(Status& status) {
     describeSeries(*pipeline, status);
     describeSensors(all_sensors_, *pipeline, reported_of_vehicle_, status);
     const auto names = mapped(sensors_, [](const Sensor& sensor) { return "the " + sensor.name + " IMU"; });
-    for (const std::string& fault : pipeline->mountFaults(names)) warn(fault, status);
+    for (const std::string& fault : pipeline->sensors().mountFaults(names)) warn(fault, status);
   }
   describeSilence(all_sensors_, status);
   describeClock(status);
@@ -168,7 +168,7 @@ void InputTask::describeSensors(const Sensors& sensors, const MessagePipeline& p
   if (!is_alone_) return;
   describeRejected(pipeline.rejected(), "", before.front(), status);
   for (const std::size_t sensor : sensors)
-    if (const std::string& frame = pipeline.missingTransform(sensor); !frame.empty())
+    if (const std::string& frame = pipeline.sensors().mount(sensor).missingTransform(); !frame.empty())
       status.mergeSummary(Status::ERROR,
                           "no static transform from " + frame + " to target_frame " + target_frame_ + " (/tf_static)");
 }

@@ -27,6 +27,8 @@ class DiagnoseService {
 
   /// @param host  outlives this object.  @param strut  that Diagnose answers about.
   DiagnoseService(const ros::NodeHandle& private_node, MonitorHost& host, std::size_t strut = 0);
+  DiagnoseService(const DiagnoseService&) = delete;
+  DiagnoseService& operator=(const DiagnoseService&) = delete;
 
   /// Ends a search that runs; its caller gets an error.
   ~DiagnoseService() { stopping_ = true; }

@@ -1,17 +1,30 @@
 #include "live_strut.h"
 
 #include <ros/console.h>
+#include <suspension_health_monitor/ModelInUse.h>
 
+#include <boost/make_shared.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "conversions.h"
 #include "input_task.h"
 #include "suspension_health_monitor/internal/base/text.h"
+#include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/record/motion.h"
 #include "suspension_health_monitor/internal/wording/monitor_sentences.h"
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr std::uint32_t kMostWaitingReports = 100000;  // messages
+
+template <class Make>
+void send(ros::Publisher& publisher, const Make& make) {
+  if (publisher.getNumSubscribers() == 0) return;
+  auto msg = make();
+  publisher.publish(boost::make_shared<const decltype(msg)>(std::move(msg)));
+}
 
 LiveModel::Shapes shapesOf(const SetEffectsRequest& request) {
   if (request.shape_names.size() != request.shape_values.size())
@@ -45,12 +58,19 @@ LiveStrut::LiveStrut(MonitorHost& host, std::size_t place, const VehicleOptions&
       model_(options_.shell, options.model_of[place]),
       baseline_(options_),
       health_log_(name_.empty() ? node_name : name_),
-      drive_(name_.empty() ? node_name : name_, options_.shell.input_timeout) {}
+      drive_(name_.empty() ? node_name : name_, options_.shell.input_timeout) {
+  setStride(options_.shell.publish_every);
+}
 
 ros::NodeHandle LiveStrut::start(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   for (const std::string& remark : model_.remarks()) ROS_WARN("%s%s", prefix_.c_str(), remark.c_str());
   ros::NodeHandle own = name_.empty() ? private_node : ros::NodeHandle(node, name_);
-  reports_.emplace(own, options_);
+  estimate_ = own.advertise<ParameterEstimate>("estimate", kMostWaitingReports);
+  ls_ = own.advertise<ParameterEstimate>("ls", kMostWaitingReports);
+  la_ = own.advertise<ParameterEstimate>("la", kMostWaitingReports);
+  comparison_ = own.advertise<ModelComparison>("comparison", kMostWaitingReports);
+  health_ = own.advertise<SuspensionHealth>("health", kMostWaitingReports);
+  model_topic_ = own.advertise<ModelInUse>("model", 1, true);
   publishModel();
   updater_.emplace(node, private_node, own.getNamespace());
   updater_->setHardwareID(own.getNamespace().substr(1));
@@ -101,15 +121,44 @@ void LiveStrut::begin(MessagePipeline& pipeline) const {
 }
 
 void LiveStrut::publishModel() {
-  reports_->changeModel(monitor() != nullptr ? monitor()->effects() : model_.effects(), monitor(),
-                        host_.frameOf(place_));
+  const SuspensionMonitor* const its = monitor();
+  const std::optional<StrutModel> now = modelOf(its);
+  model_has_estimate_ = now.has_value();
+  auto message = boost::make_shared<ModelInUse>();
+  message->header.frame_id = host_.frameOf(place_);
+  if (its != nullptr) message->header.stamp = toRosTime(its->report().stamp);
+  message->damping_to_mass = now ? now->damping_to_mass : kUnknown;
+  message->stiffness_to_mass = now ? now->stiffness_to_mass : kUnknown;
+  if (now) message->yaml = toYaml(*now);
+  for (const ActiveEffect& active : its != nullptr ? its->effects() : model_.effects()) {
+    message->effect_names.push_back(active.effect.name);
+    message->effect_coefficients.push_back(active.coefficient);
+    for (std::size_t i = 0; i < active.shapes.size(); ++i) {
+      message->shape_names.push_back(active.effect.name + '/' + active.effect.shapes[i].name);
+      message->shapes.push_back(active.shapes[i]);
+    }
+  }
+  model_topic_.publish(message);
 }
 
 void LiveStrut::publish(const MonitorReport& report) {
   drive_.add(report);
   if (std::exchange(level_, report.health.level) != report.health.level) publishDiagnostics();
   if (report.health.learned && !baseline_.known()) keepBaseline();
-  reports_->publish(report, *monitor(), host_.frameOf(place_));
+  if (!model_has_estimate_ && monitor()->modelEstimate().valid()) publishModel();
+  if (reports_++ % stride_ != 0) return;
+  std_msgs::Header header;
+  header.stamp = toRosTime(report.stamp);
+  header.frame_id = host_.frameOf(place_);
+  const auto send_estimate = [&](ros::Publisher& publisher, const StrutEstimate& estimate, const char* estimator) {
+    const auto& mass = options_.monitor.sprung_mass;
+    send(publisher, [&] { return toMsg(estimate, estimator, header, monitor()->effects(), mass); });
+  };
+  send_estimate(estimate_, report.estimate, "estimate");
+  send_estimate(ls_, report.ls, "ls");
+  send_estimate(la_, report.la, "la");
+  if (report.comparison.has_sample) send(comparison_, [&] { return toMsg(report.comparison, header.frame_id); });
+  send(health_, [&] { return toMsg(report, monitor()->baseline(), header); });
 }
 
 void LiveStrut::keepBaseline() {

@@ -14,14 +14,14 @@
 #include "live_model.h"
 #include "live_search.h"
 #include "monitor_host.h"
-#include "report_topics.h"
 #include "strut_diagnostics.h"
 #include "task_log.h"
 
 namespace suspension_health_monitor {
 
-/// A live strut as others see it, alone or one of a vehicle: its topics, its tasks of /diagnostics, and its services,
-/// which change or keep what is known of it: set_effects, save_model, save_baseline, reset, diagnose.
+/// A live strut as others see it, alone or one of a vehicle. Topics: estimate, ls, la, comparison and health, of every
+/// publish_every-th sample; model, latched, when it changes. Tasks of /diagnostics. Services: set_effects, save_model,
+/// save_baseline, reset, diagnose.
 class LiveStrut {
  public:
   /// @param host  outlives this object.  @param place  among the struts.
@@ -36,13 +36,16 @@ class LiveStrut {
   /// Gives a new monitor the model and the baseline of this strut.
   void begin(MessagePipeline& pipeline) const;
 
+  /// Publishes what has subscribers, of every publish_every-th report.
   /// @pre there is a monitor.
   void publish(const MonitorReport& report);
+
+  /// The model is another one from now on.
   void publishModel();
   void publishDiagnostics() { updater_->force_update(); }
 
-  /// As ReportTopics::setStride().
-  void setStride(int every) { reports_->setStride(every); }
+  /// @param every  so many reports make one publication, >= 1.
+  void setStride(int every) { stride_ = static_cast<std::uint64_t>(every); }
 
   LiveModel& model() { return model_; }
   const LiveBaseline& baseline() const { return baseline_; }
@@ -75,7 +78,9 @@ class LiveStrut {
   DriveSummary drive_;
   std::optional<HealthLevel> level_;
   std::optional<Accepted> accepted_;
-  std::optional<ReportTopics> reports_;
+  std::uint64_t stride_ = 1, reports_ = 0;
+  ros::Publisher estimate_, ls_, la_, comparison_, health_, model_topic_;
+  bool model_has_estimate_ = false;  // as it was published
   // Last, and so gone first: they call back into what is above.
   std::array<ros::ServiceServer, 4> services_;
   std::optional<DiagnoseService<Diagnose>> diagnose_;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "recent_samples.h"
 #include "suspension_health_monitor/internal/monitor/vehicle_pipeline.h"
-#include "suspension_health_monitor/internal/signal/recent_samples.h"
 #include "suspension_health_monitor/vehicle.h"
 #include "vehicle_options.h"
 #include "vehicle_sensors.h"
@@ -41,13 +41,7 @@ class MessagePipeline : public VehiclePipeline {
   /// strut what else the body's IMU measured; what they have gone through the grid describes.
   VehicleDrive newestSamples(double span) const;
 
-  /// @return the frame of an IMU whose transform is missing; empty if none is.
-  const std::string& missingTransform(std::size_t sensor) const { return sensors_.mount(sensor).missingTransform(); }
-
-  /// As VehicleSensors.
-  std::vector<std::string> mountFaults(const std::vector<std::string>& names) const {
-    return sensors_.mountFaults(names);
-  }
+  const VehicleSensors& sensors() const { return sensors_; }
 
   /// @return messages of a sensor, or of all, that were kept out so far, wherever it was noticed.
   RejectCounts rejected(std::size_t sensor) const;

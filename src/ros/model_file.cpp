@@ -3,7 +3,7 @@
 #include <regex>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {

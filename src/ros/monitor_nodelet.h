@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
 #include <std_srvs/Trigger.h>
+#include <tf2/buffer_core.h>
 
 #include <memory>
 #include <optional>
@@ -19,7 +20,6 @@
 #include "message_pipeline.h"
 #include "monitor_host.h"
 #include "monitor_thread.h"
-#include "sensor_topics.h"
 #include "vehicle_diagnostics.h"
 #include "vehicle_options.h"
 #include "vehicle_sensors.h"
@@ -43,7 +43,17 @@ class MonitorNodelet : public nodelet::Nodelet, public MonitorHost {
   void start(ros::NodeHandle node, ros::NodeHandle private_node);
   void startAlone(ros::NodeHandle& private_node);
   void startVehicle(ros::NodeHandle& private_node);
+  /// @return the streams with the struts in their places, as the vehicle file says, or by static transforms from the
+  /// frame of the body's IMU, which only its messages tell; none as long as a frame has not been found: why_no_places_.
+  std::optional<VehicleStreams> placedStreams();
   void makePipeline();
+
+  /// Subscribes to sensors and thermometers, unless it has already; and to /tf_static if transforms give mounts or
+  /// places.
+  void listen();
+  template <class Message, class Receive>
+  ros::Subscriber subscribe(const std::string& topic, const Receive& receive);
+  std::vector<std::string> topicNames() const;  // resolved, by sensor
 
   void onImu(std::size_t imu, const sensor_msgs::Imu& message);
   template <class Message>
@@ -56,16 +66,17 @@ class MonitorNodelet : public nodelet::Nodelet, public MonitorHost {
   MessagePipeline* pipeline() override { return pipeline_ ? &*pipeline_ : nullptr; }
   std::string whyNoMonitor() override;
   InputTask& input() override { return *input_; }
-  const std::string& frameOf(std::size_t strut) const override {
-    return frames_[placement_->streams().bodyImuOf(strut)];
-  }
+  const std::string& frameOf(std::size_t strut) const override { return frames_[streams_->bodyImuOf(strut)]; }
   SearchTask samplesFor(double window) override;
   void takeDiagnosis(const VehicleDiagnosis& found) override;
   std::string reset() override;
 
   std::shared_ptr<MonitorThread> thread_ = MonitorThread::ofThisProcess();
   VehicleOptions options_;
-  std::optional<VehiclePlacement> placement_;
+  std::optional<VehicleStreams> streams_;         // as streamsAnywhere()
+  std::optional<sensor_msgs::Imu> body_message_;  // the newest before there is a pipeline
+  std::string why_no_places_ = "waiting for body_imu, whose frame tells the struts' positions";
+  tf2::BufferCore transforms_;               // the static ones so far
   std::optional<MessagePipeline> pipeline_;  // none while the struts have no places
   std::optional<InputTask> input_;
   std::vector<std::string> frames_;                // by sensor, of its newest message; empty before the first
@@ -73,8 +84,9 @@ class MonitorNodelet : public nodelet::Nodelet, public MonitorHost {
   // What calls back is last, and so gone first: nothing may call back into members that are already gone.
   std::vector<std::unique_ptr<LiveStrut>> struts_;
   ros::ServiceServer reset_;  // of a vehicle
-  std::optional<SensorTopics> topics_;
-  ros::WallTimer body_, tick_;  // of a vehicle; of all
+  ros::Subscriber static_transforms_;
+  std::vector<ros::Subscriber> subscribers_;  // to sensors and thermometers
+  ros::WallTimer body_, tick_;                // of a vehicle; of all
   std::optional<LiveCurves> curves_;
   std::optional<DiagnoseService<DiagnoseVehicle>> diagnose_;              // of a vehicle
   std::optional<dynamic_reconfigure::Server<LiveSettings>> reconfigure_;  // of one strut alone

@@ -43,14 +43,6 @@ void addSway(const Sway& sway, bool has_gyro, sensor_msgs::Imu& imu) {
   imu.angular_velocity_covariance[0] = 0.0;
 }
 
-void addFaults(const std::vector<ActiveMeasurementEffect>& faults, SimulationTruth& msg) {
-  for (const ActiveMeasurementEffect& fault : faults)
-    for (std::size_t i = 0; i < fault.coefficients.size(); ++i) {
-      msg.effect_names.push_back(nameOfCoefficient(fault.effect, i));
-      msg.effect_coefficients.push_back(fault.coefficients[i]);
-    }
-}
-
 /// @param start  of the drive.
 MessagesOnTopics messagesOf(const SimulatorOptions& options, const DriveSample& sample, Stamp start) {
   const SimulationOptions& drive = options.drive;
@@ -65,9 +57,8 @@ MessagesOnTopics messagesOf(const SimulatorOptions& options, const DriveSample& 
   if (sample.unsprung) messages.emplace_back(kUnsprungTopic, imuOf(*sample.unsprung, gravity, start, "unsprung_imu"));
   if (sample.road && options.publishing.road_imu)
     messages.emplace_back(kRoadTopic, imuOf(*sample.road, gravity, start, "road_imu"));
-  SimulationTruth truth = toMsg(sample.truth, drive.hidden, headerAt(start + sample.stamp, "sprung_imu"));
-  addFaults(drive.hidden_faults, truth);
-  messages.emplace_back(kTruthTopic, truth);
+  messages.emplace_back(kTruthTopic, toMsg(sample.truth, drive.hidden, drive.hidden_faults,
+                                           headerAt(start + sample.stamp, "sprung_imu")));
   return messages;
 }
 
@@ -132,7 +123,7 @@ MessagesOnTopics messagesOf(const VehicleSimulationOptions& options, const Vehic
   for (std::size_t i = 0; i < vehicle.struts.size(); ++i) {
     const VehicleStrut& strut = vehicle.struts[i];
     messages.emplace_back('~' + strut.name + "/truth",
-                          toMsg(sample.truth.struts[i], strut.hidden, header_of(strut.name)));
+                          toMsg(sample.truth.struts[i], strut.hidden, {}, header_of(strut.name)));
   }
   messages.emplace_back(kTruthTopic, toMsg(sample.truth, vehicle, header_of("centre_of_gravity")));
   return messages;

@@ -14,7 +14,6 @@
 
 #include "simulator_options.h"
 #include "suspension_health_monitor/drive.h"
-#include "vehicle_simulation_options.h"
 
 namespace suspension_health_monitor {
 

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "model_file.h"
 #include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 #include "suspension_health_monitor/internal/simulation/scenario.h"
+#include "suspension_health_monitor/internal/simulation/vehicle_simulator.h"
 
 namespace suspension_health_monitor {
 
@@ -35,7 +35,7 @@ inline constexpr OptionField<PlayingOptions> kPlayingFields[] = {
      &PlayingOptions::shutdown_at_end},
 };
 
-/// What is published of a simulated drive, and what it may hide.
+/// What is published of the drive of one strut, and what it may hide.
 struct PublishingOptions {
   double gravity = 9.81;
   bool road_imu = false;
@@ -57,6 +57,19 @@ inline constexpr OptionField<PublishingOptions> kPublishingFields[] = {
      &PublishingOptions::road_imu},
 };
 
+/// The same of a vehicle.
+struct VehiclePublishingOptions {
+  std::string sprung_imus = "all", effects_file;
+};
+
+inline constexpr OptionField<VehiclePublishingOptions> kVehiclePublishingFields[] = {
+    {"sensors", "sprung_imus", "-",
+     "struts with an IMU of their own on the body: all, none (the body's IMU alone), or names",
+     &VehiclePublishingOptions::sprung_imus},
+    {"hidden", "effects_file", "-", "YAML file with laws of your own, for struts/NAME/effects",
+     &VehiclePublishingOptions::effects_file},
+};
+
 /// What config/simulator.yaml can set.
 struct SimulatorOptions {
   SimulationOptions drive;
@@ -72,25 +85,7 @@ struct SimulatorOptions {
   }
 
   /// The same with the laws of effects_file, and the catalogue's.
-  static SimulatorOptions fromValues(OptionMap values, const EffectLibrary& library) {
-    SimulatorOptions options;
-    takeOptions(values, kPublishingFields, options.publishing);
-    takeOptions(values, kPlayingFields, options.playing);
-    std::istringstream hidden(options.publishing.hidden);
-    for (std::string effect; std::getline(hidden, effect, ';');) {
-      effect.erase(0, effect.find_first_not_of(' '));
-      if (!effect.empty()) setEffect(values, effect, library.readings);
-    }
-    options.drive.hidden = takeEffects(values, library.forces, library.readings);
-    options.drive.hidden_faults = takeReadings(values, library.readings);
-    takeOptions(values, kSimulationFields, options.drive);
-    refuseUnknown(values, describe());
-    validate(options.drive);
-    if (options.publishing.road_imu && !makeScenario(options.drive).vehicle.tyre_stiffness)
-      throw std::invalid_argument("road_imu = true, must be false for vehicle = " + options.drive.vehicle +
-                                  " in scenario = " + options.drive.scenario + ": its wheel is rigid");
-    return options;
-  }
+  static SimulatorOptions fromValues(OptionMap values, const EffectLibrary& library);
 
   /// @return every option that fromValues() understands, by group.
   static std::vector<OptionDescription> describe() {
@@ -99,5 +94,29 @@ struct SimulatorOptions {
                              describeOptions(kPlayingFields)));
   }
 };
+
+/// A vehicle to simulate, its drive, and what is published of it.
+struct VehicleSimulationOptions {
+  std::string model;  ///< as it was given
+  Vehicle vehicle;
+  VehicleDriveOptions drive;
+  VehiclePublishingOptions publishing;
+  PlayingOptions playing;
+  std::vector<bool> has_sprung_imu;  ///< by vehicle.struts
+
+  /// @param model  a name that namedVehicle() knows, or a YAML file with settings of a vehicle (takeVehicle()).
+  /// @param values  change it.
+  /// @throws std::invalid_argument  naming an unknown name, or a value that is wrong and what is allowed.
+  static VehicleSimulationOptions fromValues(const std::string& model, OptionMap values);
+
+  /// @return every option, by group.
+  static std::vector<OptionDescription> describe();
+};
+
+/// Names of the topics, without a slash in front.
+inline std::string sprungTopic(const VehicleStrut& strut) { return strut.name + "/sprung/imu"; }
+inline std::string unsprungTopic(const VehicleStrut& strut) { return strut.name + "/unsprung/imu"; }
+inline std::string wrenchTopic(const KnownForce& force) { return force.name + "/wrench"; }
+inline constexpr const char* kBodyImuTopic = "imu/data";
 
 }  // namespace suspension_health_monitor

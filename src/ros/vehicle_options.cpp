@@ -8,7 +8,7 @@
 
 #include "live_model.h"
 #include "model_file.h"
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "yaml_settings.h"
 
 namespace suspension_health_monitor {

@@ -28,12 +28,6 @@ double along(const tf2::Vector3& direction, const geometry_msgs::Vector3& v) {
   return sum;
 }
 
-VehicleStreams streamsAnywhere(VehicleLayout layout) {
-  for (VehicleLayout::Strut& strut : layout.struts)
-    if (strut.frame) strut.position.emplace();
-  return VehicleStreams(layout);
-}
-
 /// @return the frame's name without the slash that some drivers still put in front of it, as tf1 did: tf2 does not find
 /// such a name.
 std::string withoutSlash(const std::string& frame) {
@@ -112,14 +106,15 @@ VehicleSensors::VehicleSensors(const VehicleStreams& streams, const ShellOptions
                                const tf2::BufferCore* transforms)
     : streams_(streams) {
   for (const VehicleStreams::Sensor& sensor : streams.sensors)
-    sensors_.push_back({sensor.place, mountOf(sensor.place, options, transforms), sensor.fields, {}, {}, {}});
+    sensors_.push_back({mountOf(sensor.place, options, transforms), {}, {}, {}});
   values_.reserve(6);
 }
 
 const std::vector<double>& VehicleSensors::read(std::size_t sensor, const sensor_msgs::Imu& message) {
   Sensor& its = sensors_[sensor];
   values_.clear();
-  if (const std::optional<RejectReason> reason = its.mount.read(message, its.place == Place::kBody, values_)) {
+  const bool six_axes = streams_.sensors[sensor].place == Place::kBody;
+  if (const std::optional<RejectReason> reason = its.mount.read(message, six_axes, values_)) {
     its.rejected.add(*reason);
     return values_;
   }
@@ -135,7 +130,7 @@ const std::vector<double>& VehicleSensors::read(std::size_t sensor, const geomet
   const std::array<double, kWrenchFields.size()> all{wrench.force.x,  wrench.force.y,  wrench.force.z,
                                                      wrench.torque.x, wrench.torque.y, wrench.torque.z};
   values_.clear();
-  for (const std::size_t field : sensors_[sensor].fields) values_.push_back(all[field]);
+  for (const std::size_t field : streams_.sensors[sensor].fields) values_.push_back(all[field]);
   return values_;
 }
 
@@ -172,6 +167,12 @@ void requireFrame(const std::string& target_frame, const tf2::BufferCore& transf
                                 suggestNearest(name, frames));
 }
 
+VehicleStreams streamsAnywhere(VehicleLayout layout) {
+  for (VehicleLayout::Strut& strut : layout.struts)
+    if (strut.frame) strut.position.emplace();
+  return VehicleStreams(layout);
+}
+
 void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const ShellOptions& options,
                  const tf2::BufferCore& transforms) {
   const std::string from = withoutSlash(imu.header.frame_id);
@@ -192,22 +193,6 @@ void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const Shell
     strut.position = mount.turned(transforms.lookupTransform(from, to, ros::Time()).transform.translation);
   }
   requireApart(layout);
-}
-
-VehiclePlacement::VehiclePlacement(const VehicleLayout& layout) : layout_(layout), streams_(streamsAnywhere(layout)) {}
-
-std::optional<VehicleStreams> VehiclePlacement::find(const ShellOptions& options, const tf2::BufferCore& transforms) {
-  if (!streams_.channels.body_imu || !layout_.hasFrames()) return streams_;
-  if (!body_message_) return std::nullopt;
-  VehicleLayout placed = layout_;
-  try {
-    placeFrames(placed, *body_message_, options, transforms);
-    for (VehicleLayout::Strut& strut : placed.struts) strut.frame.reset();
-    return VehicleStreams(placed);
-  } catch (const std::invalid_argument& error) {
-    missing_ = error.what();
-    return std::nullopt;
-  }
 }
 
 }  // namespace suspension_health_monitor

@@ -98,9 +98,7 @@ class VehicleSensors {
 
  private:
   struct Sensor {
-    VehicleStreams::Place place;
-    ImuMount mount;                   // of an IMU
-    std::vector<std::size_t> fields;  // of a wrench
+    ImuMount mount;  // of an IMU
     RejectCounts rejected;
     MountClaim claim;  // of an IMU
     std::optional<MountClaim::Finding> gravity;
@@ -114,35 +112,13 @@ class VehicleSensors {
 /// @throws std::invalid_argument  naming target_frame, if no static transform is of this frame.
 void requireFrame(const std::string& target_frame, const tf2::BufferCore& transforms);
 
+/// @return the streams, of which everything is known but the places of struts that have a frame.
+VehicleStreams streamsAnywhere(VehicleLayout layout);
+
 /// Gives struts that have a frame their position, by the static transforms from the body's IMU.
 /// @param imu  any message of the body's IMU, which tells its frame.
 /// @throws std::invalid_argument  naming the frame whose transform is missing, or two struts in one place.
 void placeFrames(VehicleLayout& layout, const sensor_msgs::Imu& imu, const ShellOptions& options,
                  const tf2::BufferCore& transforms);
-
-/// Where the struts of a live vehicle stand: as its file says, or by static transforms from the frame of the body's
-/// IMU, which only its messages tell.
-class VehiclePlacement {
- public:
-  explicit VehiclePlacement(const VehicleLayout& layout);
-
-  /// Takes in a message of the body's IMU.
-  void noteBody(const sensor_msgs::Imu& message) { body_message_ = message; }
-
-  /// @return the streams with the struts in their places; none as long as a frame has not been found: missing().
-  std::optional<VehicleStreams> find(const ShellOptions& options, const tf2::BufferCore& transforms);
-
-  /// @return the streams, of which everything but the places is known from the start.
-  const VehicleStreams& streams() const { return streams_; }
-
-  /// @return why there are no places yet.
-  const std::string& missing() const { return missing_; }
-
- private:
-  VehicleLayout layout_;
-  VehicleStreams streams_;
-  std::optional<sensor_msgs::Imu> body_message_;
-  std::string missing_ = "waiting for body_imu, whose frame tells the struts' positions";
-};
 
 }  // namespace suspension_health_monitor

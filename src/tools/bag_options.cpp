@@ -11,7 +11,7 @@
 #include "../ros/vehicle_sensors.h"
 #include "bag_file.h"
 #include "long_work.h"
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {

@@ -134,6 +134,8 @@ void checkBags(const po::variables_map& values) {
   const CheckedImus checked(bags, topicsOf(values));
   print(checked);
   if (findings) findings->commit(checked.toJson().dump(2) + '\n');
+  if (checked.imus.size() < 2)
+    throw TooLittleError("one IMU is not enough: record two, one on the body and one on the wheel carrier");
   if (checked.pairs.empty())
     throw TooLittleError(
         "no IMU moves like a body over another one: drive for half a minute on a rough road, with one IMU on the wheel "

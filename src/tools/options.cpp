@@ -7,7 +7,6 @@
 
 #include "../ros/shell_options.h"
 #include "../ros/simulator_options.h"
-#include "../ros/vehicle_simulation_options.h"
 #include "command.h"
 
 namespace suspension_health_monitor {

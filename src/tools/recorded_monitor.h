@@ -68,7 +68,7 @@ class RecordedMonitor {
   }
 
  private:
-  std::vector<std::string> mountFaults() const { return pipeline_.mountFaults(topics_); }
+  std::vector<std::string> mountFaults() const { return pipeline_.sensors().mountFaults(topics_); }
   std::string whyTooLittle() const;
 
   const BagOptions& options_;

@@ -11,7 +11,7 @@
 #include "../ros/model_file.h"
 #include "../ros/yaml_settings.h"
 #include "command.h"
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/math/statistics.h"

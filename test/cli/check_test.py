@@ -112,6 +112,12 @@ def test_without_a_pair_the_table_is_printed_all_the_same(program, drive, tmp_pa
     assert result.stdout.count("OK") == 2 and json.loads((tmp_path / "check.json").read_text())["pairs"] == []
 
 
+def test_one_imu_alone_is_told_that_another_is_needed(program, drive, tmp_path):
+    result = program("check", rename(drive, tmp_path / "one.bag", {"/front/sprung/imu": "/a"}))
+    assert result.returncode == 4 and "one IMU is not enough" in result.stderr
+    assert result.stdout.count("OK") == 1
+
+
 def test_what_is_wrong_with_a_topic_is_said(program, tmp_path):
     rng = random.Random(1)
     with rosbag.Bag(str(tmp_path / "wrong.bag"), "w") as bag:

@@ -22,9 +22,8 @@ NUMBERS = r"(?:float64|byte|bool|uint8)"
 
 def topics_of_the_monitor():
     """Message type by name of the topic, as the nodelet has them advertised."""
-    sources = " ".join(path.read_text() for path in (REPOSITORY / "src" / "ros").glob("*.cpp")
-                       if path.name in ("report_topics.cpp", "tyre_output.cpp"))
-    return {topic: message for message, topic in re.findall(r'advertise<(\w+)>\("(\w+)"', sources)}
+    source = (REPOSITORY / "src" / "ros" / "live_strut.cpp").read_text()
+    return {topic: message for message, topic in re.findall(r'advertise<(\w+)>\("(\w+)"', source)}
 
 
 def numeric_fields(message):

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPeriod = 0.01;
 constexpr int kSamples = 400;
-constexpr std::size_t kFirst = BandlimitedInterpolator::kHalfWidth;  // sample of the drive that a segment begins with
+constexpr std::size_t kFirst = kInterpolationReach;  // sample of the drive that a segment begins with
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 DriveRecord makeRecord(const std::vector<BodyMotion>& motion = {}) {
@@ -117,37 +117,37 @@ TEST(BodyMotion, WhatIsNotMeasuredOrStandsStillIsEmptyAndItsEffectsUntestable) {
   EXPECT_EQ(untestable(parked), std::vector<std::string>{"mount_tilt"});
 }
 
-TEST(SlopeFilter, IsExactForAQuarticAndHasTheNoiseThatItSays) {
+TEST(SlopeWeights, AreExactForAQuarticAndHaveTheNoiseThatTheySay) {
   for (const int half_width : {2, 4, 8, 12}) {
-    const SlopeFilter slope(half_width, 0.5);
+    const Eigen::VectorXd weights = slopeWeights(half_width, 0.5);
     std::vector<double> values;
     for (int k = -half_width; k <= half_width; ++k) {
       const double t = 0.5 * k;
       values.push_back(7.0 - 3.0 * t + 2.0 * t * t + 0.5 * t * t * t - 0.25 * t * t * t * t);
     }
-    EXPECT_NEAR(slope(&values[static_cast<std::size_t>(half_width)]), -3.0, 1e-9) << half_width;
+    EXPECT_NEAR(weightedSlope(&values[static_cast<std::size_t>(half_width)], weights), -3.0, 1e-9) << half_width;
     double gain = 0.0;  // from the answers to single ones
     for (std::size_t i = 0; i < values.size(); ++i) {
       std::vector<double> one(values.size(), 0.0);
       one[i] = 1.0;
-      gain += std::pow(slope(&one[static_cast<std::size_t>(half_width)]), 2);
+      gain += std::pow(weightedSlope(&one[static_cast<std::size_t>(half_width)], weights), 2);
     }
-    EXPECT_NEAR(slope.noiseGain(), std::sqrt(gain), 1e-12);
+    EXPECT_NEAR(noiseOfSlope(weights), std::sqrt(gain), 1e-12);
   }
 }
 
-TEST(SlopeFilter, IsWideOnlyWhereTheSeriesIsNoisy) {
+TEST(SlopeWeights, AreWideOnlyWhereTheSeriesIsNoisy) {
   std::mt19937 random(1);
   std::normal_distribution<double> gaussian;
   const auto halfWidth = [&](double noise) {
     std::vector<double> series;
     for (int k = 0; k < 2000; ++k) series.push_back(std::sin(0.1 * k) + noise * gaussian(random));
-    return SlopeFilter::fitting({series}, 0.01).halfWidth();
+    return fittingSlope({series}, 0.01).size();
   };
   EXPECT_EQ(halfWidth(0.0), 2);
   EXPECT_EQ(halfWidth(0.004), 4);  // noise gains 0.95, 0.34, 0.12 / T; the slope's rms is 0.071 / T
   EXPECT_EQ(halfWidth(0.015), 8);
-  EXPECT_EQ(halfWidth(0.2), SlopeFilter::kWidest);
+  EXPECT_EQ(halfWidth(0.2), kWidestSlope);
 }
 
 }  // namespace

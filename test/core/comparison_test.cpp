@@ -104,7 +104,7 @@ TEST(CompareModel, TheMissingForceIsTheHiddenOne) {
   const ActiveEffect& hidden = options.hidden[0];
   double product = 0.0, square = 0.0, plain = 0.0;
   for (std::size_t k = 500; k + 500 < segment.size(); ++k) {
-    const DriveTruth& truth = samples[k + BandlimitedInterpolator::kHalfWidth].truth;
+    const DriveTruth& truth = samples[k + kInterpolationReach].truth;
     const double force =
         hidden.coefficient * hidden.effect.force({truth.travel, truth.travel_rate, 0.0, 0.0}, hidden.shapes.data());
     product += force * segment.missing_force[k];
@@ -243,7 +243,7 @@ TEST(EstimateInitialStates, FindsTheStateInWhichASegmentBegins) {
   const auto states = estimateInitialStates({&record}, kCar);
   ASSERT_TRUE(states);
   ASSERT_EQ(states->size(), 1u);
-  const DriveTruth start = drive(options)[BandlimitedInterpolator::kHalfWidth].truth;
+  const DriveTruth start = drive(options)[kInterpolationReach].truth;
   EXPECT_NEAR((*states)[0].travel + record.gravity() / 63.3, start.travel, 5e-4);
   EXPECT_NEAR((*states)[0].travel_rate, start.travel_rate, 5e-3);
   EXPECT_GT(std::abs(start.travel_rate), 0.02);

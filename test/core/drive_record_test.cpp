@@ -11,7 +11,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kPeriod = 0.01, kOmega = 2.0 * 3.14159265358979 * 5.0;  // 20 samples a period
-constexpr int kEnd = BandlimitedInterpolator::kHalfWidth;                // samples lost at each end
+constexpr int kEnd = kInterpolationReach;                                // samples lost at each end
 
 double body(int k) { return 9.81 + 0.3 + std::cos(kOmega * k * kPeriod); }
 double wheel(int k) { return 9.81 + 2.0 * std::sin(kOmega * k * kPeriod); }

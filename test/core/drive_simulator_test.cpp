@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "quarter_car.h"
 #include "reference/quarter_car_forms.h"
 #include "simulated_drive.h"
 #include "suspension_health_monitor/effects.h"
@@ -75,7 +76,7 @@ TEST(DriveSimulator, SettlesToTheTransferFunctionOfTheFullForm) {
   SimulationOptions options = scenario("paper_clean", 40.0);
   options.vehicle = "ugv";
   options.damping_end_fraction = 1.0;
-  const RoadDrivenForm form = roadDrivenForm(makeScenario(options).vehicle);
+  const RoadDrivenForm form = roadDrivenForm(carOf(options));
   for (const DriveSample& sample : drive(options)) {
     const double t = toSeconds(sample.stamp);
     if (t < 20.0) continue;  // b1 / 2 = 2 1/s: the start has decayed by exp(-40)
@@ -122,7 +123,7 @@ TEST(DriveSimulator, DampingOfWhichAllIsLeftIsAHealthyDrive) {
     SimulationOptions options = scenario(name, 110.0);
     options.rate = 1.0;
     options.damping_end_fraction = 1.0;
-    EXPECT_DOUBLE_EQ(drive(options).back().truth.damping_to_mass, makeScenario(options).vehicle.dampingToMass());
+    EXPECT_DOUBLE_EQ(drive(options).back().truth.damping_to_mass, carOf(options).dampingToMass());
   }
 }
 

@@ -133,7 +133,7 @@ TEST(ChangeFrom, IsThatOfTheDampersWhereFrictionIsNotKnown) {
 }
 
 HealthReport reportAfter(const Baseline& baseline, const StrutEstimate& of) {
-  HealthOptions options;
+  HealthThresholds options;
   options.confirm_time = 1.0;
   HealthAssessment assessment(options);
   assessment.setBaseline(baseline);

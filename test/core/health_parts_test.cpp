@@ -46,17 +46,17 @@ TEST(SplitChange, ADamageIsAsCertainAsItIsThatNoLoadDidIt) {
   const StrutChange unloaded = splitChange({Measured{-0.2, 0.01}, Measured{0.0, 0.02}}, 0.35, 0.0);
   EXPECT_NEAR(std::log1p(*unloaded.damping), -0.2, 1e-12);
   EXPECT_NEAR(unloaded.damping_stddev, 0.01, 1e-12);  // the noise of stiffness does not enter the size
-  EXPECT_NEAR(unloaded.load_alone->distance, 0.2 / std::hypot(0.01, 0.02), 1e-9);
+  EXPECT_NEAR(*unloaded.distance_from_load, 0.2 / std::hypot(0.01, 0.02), 1e-9);
   // No load of the range takes more than ln(1.35) = 0.3 away: the rest is as certain as the damping is.
   const StrutChange beyond = splitChange({Measured{-0.7, 0.01}, Measured{0.0, 0.5}}, 0.35, 0.0);
-  EXPECT_GT(beyond.load_alone->distance, 0.39 / 0.01);
+  EXPECT_GT(*beyond.distance_from_load, 0.39 / 0.01);
   const StrutChange loaded = splitChange({Measured{-0.2, 0.01}, Measured{-0.1, 0.02}}, 0.35, 0.0);
   EXPECT_NEAR(loaded.damping_stddev, std::hypot(0.01, 0.02), 1e-12);
   EXPECT_NEAR(std::log1p(*loaded.payload), 0.1 * (1.0 - 0.16), 1e-12);  // (2 * 0.02 / 0.1)^2
   const StrutChange alone = splitChange({Measured{-0.2, 0.01}, std::nullopt}, 0.35, 0.0);
   EXPECT_FALSE(alone.payload);
   EXPECT_EQ(alone.damping_stddev, 0.01);
-  EXPECT_FALSE(split(0.8, 1.0, 1.0, 0.0).load_alone);  // none may be
+  EXPECT_FALSE(split(0.8, 1.0, 1.0, 0.0).distance_from_load);  // none may be
 }
 
 // -30 % of mass, then -30 % of damping: damping alone would look as if nothing had happened to it, and the spring
@@ -70,22 +70,23 @@ TEST(SplitChange, CountsTheLoadFromTheOneThatWasThere) {
   EXPECT_NEAR(*splitChange({damping, stiffness}, 0.35, 0.0).stiffness, 1.0 / 0.7 - 1.0, 1e-9);
 }
 
-TEST(LoadAlone, IsTheWeightedMeanWithinItsRange) {
-  const LoadAlone load = explainByLoad({Measured{-0.2, 0.01}, Measured{-0.1, 0.02}}, {-0.4, 0.3});
-  EXPECT_NEAR(load.log_mass, (0.2 * 4.0 + 0.1) / 5.0, 1e-12);
-  EXPECT_NEAR(load.distance, 0.1 / std::hypot(0.01, 0.02), 1e-9);  // of two values from their common mean
-  EXPECT_EQ(explainByLoad({Measured{-0.7, 0.01}, Measured{-0.5, 0.01}}, {-0.4, 0.3}).log_mass, 0.3);
-  EXPECT_EQ(explainByLoad({Measured{0.7, 0.01}, Measured{0.5, 0.01}}, {-0.4, 0.3}).log_mass, -0.4);
+TEST(DistanceFromLoad, IsThatOfTheWeightedMeanWithinItsRange) {
+  const auto distance = [](double damping, double stiffness, double stddev) {
+    return distanceFromLoad({Measured{damping, 0.01}, Measured{stiffness, stddev}}, {-0.4, 0.3});
+  };
+  EXPECT_NEAR(distance(-0.2, -0.1, 0.02), 0.1 / std::hypot(0.01, 0.02), 1e-9);  // of two values from their common mean
+  EXPECT_NEAR(distance(-0.7, -0.5, 0.01), std::hypot(0.4, 0.2) / 0.01, 1e-9);   // from the heaviest
+  EXPECT_NEAR(distance(0.7, 0.5, 0.01), std::hypot(0.3, 0.1) / 0.01, 1e-9);     // from the lightest
 }
 
 // Errors that both share are no distance: of x1 - x0, which no load moves, the variance is d^2 + s^2 - 2 c d s.
-TEST(LoadAlone, KnowsThatErrorsOfBothAreCorrelated) {
+TEST(DistanceFromLoad, KnowsThatErrorsOfBothAreCorrelated) {
   constexpr double kDamping = 0.03, kStiffness = 0.01;
   for (const double correlation : {-0.8, 0.0, 0.8}) {
     const MeasuredChange both{Measured{-0.2, kDamping}, Measured{-0.1, kStiffness}, correlation};
     const double apart =
         std::sqrt(kDamping * kDamping + kStiffness * kStiffness - 2.0 * correlation * kDamping * kStiffness);
-    EXPECT_NEAR(explainByLoad(both, {-0.4, 0.4}).distance, 0.1 / apart, 1e-9) << correlation;
+    EXPECT_NEAR(distanceFromLoad(both, {-0.4, 0.4}), 0.1 / apart, 1e-9) << correlation;
     EXPECT_NEAR(splitChange(both, 0.35, 0.0).apartStddev(), apart, 1e-12) << correlation;
   }
 }

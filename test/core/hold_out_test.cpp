@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "hidden_effect.h"
+#include "quarter_car.h"
 #include "recorded_drive.h"
 #include "simulated_drive.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
@@ -15,7 +16,7 @@ namespace suspension_health_monitor {
 namespace {
 
 constexpr double kPeriod = 0.01;
-constexpr int kEnd = BandlimitedInterpolator::kHalfWidth;
+constexpr int kEnd = kInterpolationReach;
 const double kHalfSecond = std::pow(2.0 * M_PI / 0.5, 2);  // b0 of a natural period of 50 samples
 
 // 1500 usable samples: fifteen blocks of 100, of which 2, 5, 8, 11, 14 are held out; z'' is 1 in every second sample.
@@ -172,7 +173,7 @@ TEST(EstimateNoiseFloor, IsAboutWhatTheTrueModelLeaves) {
     options.gaussian_noise = true;
     options.damping_end_fraction = 1.0;
     const DriveRecord record = recorded(options);
-    const QuarterCar car = makeScenario(options).vehicle;
+    const QuarterCar car = carOf(options);
     const StrutModel truth{car.dampingToMass(), car.stiffnessToMass(), {}, {}};
     std::vector<double> predicted;
     const DriveSegment& segment = record.segments().front();

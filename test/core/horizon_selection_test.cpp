@@ -10,7 +10,7 @@
 
 #include "paper_drive.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 
 namespace suspension_health_monitor {
 namespace {

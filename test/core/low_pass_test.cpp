@@ -77,7 +77,7 @@ TEST(DriveRecord, BehindAFilterIsDrivenByTheWheelBeforeItAndLosesWhatTheFilterRe
   }
   drive.low_pass.taps = taps();
   const DriveRecord record(drive, 1.0 / kRate, 1);
-  constexpr int kFirst = BandlimitedInterpolator::kHalfWidth + kReach;
+  constexpr int kFirst = kInterpolationReach + kReach;
   ASSERT_EQ(record.segments().size(), 1u);
   const DriveSegment& segment = record.segments().front();
   ASSERT_EQ(segment.size(), 400u - 2 * kFirst);

@@ -33,7 +33,7 @@ inline MeanEstimates identify(const SimulationOptions& drive, Alignment alignmen
     if (!reading) return;
     const double measured = reading->acceleration + kGravity;
     auto sample = grid.push(side, reading->stamp, measured);
-    if (grid.streams().taken()) monitor.addReading(side, *grid.streams().taken(), measured);
+    if (grid.gate(side).taken()) monitor.addReading(side, *grid.gate(side).taken(), measured);
     for (; sample; sample = grid.next()) {
       const MonitorReport* report = monitor.addGridSample(*sample);
       if (report == nullptr || toSeconds(sample->stamp) < kSettled) continue;

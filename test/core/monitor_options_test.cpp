@@ -64,9 +64,9 @@ TEST(MonitorSettings, PresetGivesWhatIsNotGiven) {
   EXPECT_EQ(paper.preset, "paper");
   EXPECT_EQ(paper.forgetting_factor, 0.98);
   EXPECT_EQ(paper.integration_horizon, 0.6);
-  EXPECT_TRUE(paper.estimators.forgets_unexcited);
+  EXPECT_TRUE(paper.forgets_unexcited);
   EXPECT_EQ(other.forgetting_factor, 0.97);
-  EXPECT_EQ(other.estimators.rule, IntegrationRule::kTrapezoid);
+  EXPECT_EQ(other.integration_rule, IntegrationRule::kTrapezoid);
   OptionMap wrong{{"preset", "papier"}};
   EXPECT_THROW(takeMonitorOptions(wrong), std::invalid_argument);
 }
@@ -78,28 +78,13 @@ TEST(MonitorSettings, SettingsReachTheEstimators) {
   EXPECT_EQ(paper.filter(0.02).rule, IntegrationRule::kTrapezoid);
   EXPECT_EQ(paper.recursive(0).forgetting_factor, 0.98);
   EXPECT_EQ(paper.recursive(0).initial_variance_rule, InitialVariance::kAbsolute);
-  EXPECT_EQ(paper.estimators.recursive.start_rows, 150);
-  EXPECT_EQ(paper.estimators.recursive.small_divisor_rule, SmallDivisor::kAbsolute);
-  EXPECT_EQ(paper.estimators.recursive.small_divisor, 1e-8);
-  EXPECT_FALSE(paper.estimators.recursive.scale_covariance_at_start);
+  EXPECT_EQ(paper.estimators.start_rows, 150);
+  EXPECT_EQ(paper.estimators.small_divisor_rule, SmallDivisor::kAbsolute);
+  EXPECT_EQ(paper.estimators.small_divisor, 1e-8);
+  EXPECT_FALSE(paper.estimators.scale_covariance_at_start);
   const MonitorSettings live = liveOptions();
   EXPECT_EQ(live.recursive(0).initial_variance_rule, InitialVariance::kRelative);
-  EXPECT_EQ(live.estimators.recursive.small_divisor_rule, SmallDivisor::kRelative);
-  MonitorSettings health;
-  health.nominal_damping_to_mass = 1.0;
-  health.nominal_stiffness_to_mass = 2.0;
-  health.damping_warn = 0.3;
-  health.damping_error = 0.4;
-  health.stiffness_warn = 0.5;
-  health.stiffness_error = 0.6;
-  health.confirm_time = 7.0;
-  EXPECT_EQ(health.health().nominal_damping_to_mass, 1.0);
-  EXPECT_EQ(health.health().nominal_stiffness_to_mass, 2.0);
-  EXPECT_EQ(health.health().damping_warn, 0.3);
-  EXPECT_EQ(health.health().damping_error, 0.4);
-  EXPECT_EQ(health.health().stiffness_warn, 0.5);
-  EXPECT_EQ(health.health().stiffness_error, 0.6);
-  EXPECT_EQ(health.health().confirm_time, 7.0);
+  EXPECT_EQ(live.estimators.small_divisor_rule, SmallDivisor::kRelative);
 }
 
 TEST(MonitorSettings, DefaultsAreValidWithAndWithoutASamplePeriod) {

@@ -8,7 +8,7 @@ namespace {
 bool present(double tails, int updates) {
   StrutEstimate ls;
   ls.tails = tails;
-  HealthAssessment assessment{HealthOptions()};
+  HealthAssessment assessment{HealthThresholds()};
   for (int i = 0; i < updates; ++i) assessment.watch(ls);
   return assessment.update(Stamp(), StrutEstimate(), false).outliers;
 }

@@ -31,7 +31,7 @@ TEST(RunFree, IsTheSimulatorsBodyOnceTheStartIsForgotten) {
   ASSERT_TRUE(runFree({6.0, 63.3, {}, {}}, segment, {}, predicted, &motion));
   ASSERT_EQ(predicted.size(), segment.size());
   for (std::size_t k = 1000; k < segment.size(); ++k) {
-    const DriveTruth& truth = samples[k + BandlimitedInterpolator::kHalfWidth].truth;
+    const DriveTruth& truth = samples[k + kInterpolationReach].truth;
     // The mean of w'' that the record takes off is missing in z'', and in d by b0.
     ASSERT_NEAR(predicted[k] + record.gravity(), truth.sprung_acceleration, 0.01);
     ASSERT_NEAR(motion[k].travel + record.gravity() / 63.3, truth.travel, 1e-4);
@@ -53,7 +53,7 @@ TEST(FitOutputError, RecoversTheLinearStrutAndItsInitialState) {
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->model.damping_to_mass, 6.0, 0.002 * 6.0);
   EXPECT_NEAR(fit->model.stiffness_to_mass, 63.3, 0.002 * 63.3);
-  const DriveTruth start = drive(options)[BandlimitedInterpolator::kHalfWidth].truth;
+  const DriveTruth start = drive(options)[kInterpolationReach].truth;
   EXPECT_NEAR(fit->initial.at(0).travel, start.travel, 5e-4);
   EXPECT_NEAR(fit->initial.at(0).travel_rate, start.travel_rate, 5e-3);
   ASSERT_EQ(fit->stddev.size(), 2);
@@ -107,7 +107,7 @@ TEST(FitOutputError, SegmentsAndDrivesShareTheModelButNotTheirStarts) {
   EXPECT_EQ(fit->residuals[1].size(), first.segments()[1].size());
   EXPECT_EQ(fit->residuals[2].size(), second.segments()[0].size());
   EXPECT_NEAR(fit->model.stiffness_to_mass, 63.3, 0.005 * 63.3);
-  const DriveTruth& middle = samples[1501 + BandlimitedInterpolator::kHalfWidth].truth;
+  const DriveTruth& middle = samples[1501 + kInterpolationReach].truth;
   EXPECT_NEAR(fit->initial[1].travel, middle.travel, 1e-3);
   EXPECT_NEAR(fit->initial[1].travel_rate, middle.travel_rate, 5e-3);
 }

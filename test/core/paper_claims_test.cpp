@@ -14,8 +14,8 @@ constexpr int kNumSeeds = 20;
 
 MonitorSettings liveOptionsWithThePapersDivisor() {
   MonitorSettings options = liveOptions();
-  options.estimators.recursive.small_divisor_rule = SmallDivisor::kAbsolute;
-  options.estimators.recursive.small_divisor = 1e-8;
+  options.estimators.small_divisor_rule = SmallDivisor::kAbsolute;
+  options.estimators.small_divisor = 1e-8;
   return options;
 }
 
@@ -71,9 +71,9 @@ TEST(PaperClaims, EndStopsThrowLeastSquaresOffAndLeaveLeastAbsoluteAlone) {
 TEST(PaperClaims, LiveDefaultsAreThoseOfTheTable) {
   const MonitorSettings options;
   EXPECT_EQ(options.forgettingFactor(0.02), 0.99);
-  EXPECT_EQ(options.estimators.recursive.small_divisor_rule, SmallDivisor::kRelative);
-  EXPECT_EQ(options.estimators.recursive.small_divisor, 0.2);
-  EXPECT_EQ(options.estimators.rule, IntegrationRule::kBandLimited);
+  EXPECT_EQ(options.estimators.small_divisor_rule, SmallDivisor::kRelative);
+  EXPECT_EQ(options.estimators.small_divisor, 0.2);
+  EXPECT_EQ(options.integration_rule, IntegrationRule::kBandLimited);
 }
 
 }  // namespace

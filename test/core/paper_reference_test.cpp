@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "csv.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 
 namespace suspension_health_monitor {

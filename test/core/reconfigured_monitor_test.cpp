@@ -6,7 +6,7 @@
 
 #include "monitor_settings.h"
 #include "paper_drive.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 #include "suspension_health_monitor/internal/monitor/suspension_monitor.h"
 
 namespace suspension_health_monitor {
@@ -21,6 +21,7 @@ TEST(ReconfiguredMonitor, LeastSquaresWeighsRowsByTheFactorThatHeldInTheirTime) 
   const std::vector<RegressionRow> rows = strutRows(healthyPaperDrive(20.0, 0.024), liveOptions().filter(0.02));
   const std::size_t changed_at = 500, end = 650;
   RecursiveOptions recursive = liveOptions().recursive(0);
+  recursive.drifting_offset = false;
   recursive.forgetting_factor = 0.98;
   const double later = 0.995;
   RecursiveLeastSquares estimator(2, recursive);

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "paper_drive.h"
 #include "random_rows.h"
 #include "reference/batch_estimators.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -1,5 +1,3 @@
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -9,6 +7,7 @@
 
 #include "paper_drive.h"
 #include "random_rows.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 
 namespace suspension_health_monitor {
 namespace {

@@ -6,21 +6,24 @@
 #include <stdexcept>
 #include <string>
 
+#include "quarter_car.h"
 #include "simulated_drive.h"
 
 namespace suspension_health_monitor {
 namespace {
 
-TEST(EndStops, PushTheBodyAwayFromThem) {
-  const EndStops stops{0.09, 1000.0};
-  EXPECT_DOUBLE_EQ(stops.forcePerMass(0.05), 0.0);
-  EXPECT_NEAR(stops.forcePerMass(0.10), 10.0, 1e-12);
-  EXPECT_NEAR(stops.forcePerMass(-0.11), -20.0, 1e-12);
+TEST(VehicleStrut, IsPushedAwayFromItsEndStops) {
+  VehicleStrut strut;
+  strut.stop_gap = 0.09;
+  strut.stop_stiffness_to_mass = 1000.0;
+  EXPECT_DOUBLE_EQ(strut.stopForceToMass(0.05), 0.0);
+  EXPECT_NEAR(strut.stopForceToMass(0.10), 10.0, 1e-12);
+  EXPECT_NEAR(strut.stopForceToMass(-0.11), -20.0, 1e-12);
 }
 
-TEST(Scenario, VehiclesHaveTheirPublishedRatios) {
+TEST(QuarterCarOf, VehiclesHaveTheirPublishedRatios) {
   SimulationOptions options = scenario("iso_road", 0.0);
-  const QuarterCar golden = makeScenario(options).vehicle;
+  const QuarterCar golden = carOf(options);
   EXPECT_NEAR(golden.dampingToMass(), 6.0, 1e-12);
   EXPECT_NEAR(golden.stiffnessToMass(), 63.3, 1e-12);
   EXPECT_NEAR(golden.unsprung_mass / golden.sprung_mass, 0.15, 1e-12);
@@ -33,17 +36,17 @@ TEST(Scenario, VehiclesHaveTheirPublishedRatios) {
   EXPECT_NEAR(truth.stiffness_to_mass, 90.0, 1e-12);
 }
 
-TEST(Scenario, VehiclesHaveTheirOwnRoadAndSpeedUnlessToldOtherwise) {
+TEST(QuarterCarOf, VehiclesHaveTheirOwnRoadAndSpeedUnlessToldOtherwise) {
   SimulationOptions options = scenario("iso_road", 0.0);
   options.vehicle = "rover";
-  const RoadPoint own = makeScenario(options).road(3.0);
+  const RoadPoint own = roadOf(options)(3.0);
   options.iso_class = "E";
   options.speed = 2.0;
-  EXPECT_EQ(makeScenario(options).road(3.0).height, own.height);
+  EXPECT_EQ(roadOf(options)(3.0).height, own.height);
   options.iso_class = "F";
-  EXPECT_NEAR(makeScenario(options).road(3.0).height, 2.0 * own.height, 1e-12);
+  EXPECT_NEAR(roadOf(options)(3.0).height, 2.0 * own.height, 1e-12);
   options.speed = 6.0;
-  EXPECT_NEAR(makeScenario(options).road(1.0).height, 2.0 * own.height, 1e-12);
+  EXPECT_NEAR(roadOf(options)(1.0).height, 2.0 * own.height, 1e-12);
 }
 
 TEST(SimulationOptions, AreRefusedByNameAndValue) {

@@ -22,13 +22,13 @@ std::vector<DriveSample> driveWith(const ActiveMeasurementEffect& hidden, Simula
   return drive(options);
 }
 
-TEST(BodySway, HasTheRmsThatIsAskedForAndItsDerivativeIsOne) {
-  const BodySway sway(swayingDrive("golden_car", 7));
+TEST(SwayOf, HasTheRmsThatIsAskedForAndItsDerivativeIsOne) {
+  const auto sway = swayOf(swayingDrive("golden_car", 7));
   std::array<double, 2> acceleration{}, rate{};
   constexpr int kMoments = 60000;
   for (int k = 0; k < kMoments; ++k) {
     const double t = 0.01 * k, h = 1e-4;
-    const Sway now = sway.at(t), before = sway.at(t - h), after = sway.at(t + h);
+    const Sway now = sway(t), before = sway(t - h), after = sway(t + h);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       acceleration[axis] += now.acceleration[axis] * now.acceleration[axis];
       rate[axis] += now.angular_rate[axis] * now.angular_rate[axis];
@@ -55,12 +55,12 @@ TEST(SimulatedFaults, AreAbsentUnlessHidden) {
 }
 
 TEST(SimulatedFaults, BiasGainTiltAndLeverArmChangeTheReadingAsTheyShould) {
-  const BodySway sway(quiet());
+  const auto sway = swayOf(quiet());
   const auto expectReading = [&](const ActiveMeasurementEffect& hidden, const auto& expected) {
     const std::vector<DriveSample> samples = driveWith(hidden);
     for (const DriveSample& sample : samples)
       ASSERT_NEAR(sample.sprung->acceleration,
-                  expected(sample.truth.sprung_acceleration, sway.at(toSeconds(sample.stamp))), 1e-12)
+                  expected(sample.truth.sprung_acceleration, sway(toSeconds(sample.stamp))), 1e-12)
           << hidden.effect.name;
   };
   expectReading(fault("accelerometer_bias", {0.3}), [](double y, const Sway&) { return y + 0.3; });

@@ -47,7 +47,7 @@ void expectLaw(const ForceCurve& curve, const std::function<double(double)>& law
     EXPECT_NEAR(curve.force[i], law(curve.at[i]), accuracy + 3.0 * curve.stddev[i]) << curve.at[i];
 }
 
-// The free run is exact to BandlimitedInterpolator::kAccuracy, 1e-3 or better, of an acceleration of some 1 m/s^2.
+// The free run is exact to kInterpolationAccuracy, 1e-3 or better, of an acceleration of some 1 m/s^2.
 constexpr double kAccuracy = 1e-3;
 
 TEST(StrutCurves, AreStraightLinesOfALinearStrutWithoutNoise) {

@@ -30,7 +30,7 @@ TEST(StrutModel, ForceSumsTheLinearStrutAndItsEffects) {
 }
 
 TEST(WheelInterpolator, ConstantAccelerationMovesTheWheelByTheTextbook) {
-  const std::vector<double> around(2 * BandlimitedInterpolator::kHalfWidth, 2.0);
+  const std::vector<double> around(2 * kInterpolationReach, 2.0);
   for (const auto& [from, to] : std::vector<std::pair<double, double>>{{0.0, 1.0}, {0.0, 0.5}, {0.5, 1.0}}) {
     const WheelStep step = WheelInterpolator(from, to, 0.1)(around.data());
     const double h = 0.1 * (to - from);
@@ -44,8 +44,8 @@ TEST(WheelInterpolator, ConstantAccelerationMovesTheWheelByTheTextbook) {
 TEST(WheelInterpolator, HalfStepsAreAtTheirOwnPlace) {
   constexpr double period = 0.1;
   std::vector<double> around;  // sin(2 t), the step from t = 0 to 0.1
-  for (int i = 0; i < 2 * BandlimitedInterpolator::kHalfWidth; ++i)
-    around.push_back(std::sin(2.0 * period * (i - BandlimitedInterpolator::kHalfWidth + 1)));
+  for (int i = 0; i < 2 * kInterpolationReach; ++i)
+    around.push_back(std::sin(2.0 * period * (i - kInterpolationReach + 1)));
   const WheelStep second = WheelInterpolator(0.5, 1.0, period)(around.data());
   EXPECT_NEAR(second.end_velocity, (std::cos(0.1) - std::cos(0.2)) / 2.0, 1e-6);
 }
@@ -58,8 +58,8 @@ TEST(IntegrateStrut, SteadyStateOfASineIsTheTransferFunctions) {
   StrutState state;
   for (int k = 0; k < last; ++k) {
     std::vector<double> around;
-    for (int i = 0; i < 2 * BandlimitedInterpolator::kHalfWidth; ++i)
-      around.push_back(std::sin(omega * period * (k + i - BandlimitedInterpolator::kHalfWidth + 1)));
+    for (int i = 0; i < 2 * kInterpolationReach; ++i)
+      around.push_back(std::sin(omega * period * (k + i - kInterpolationReach + 1)));
     integrateStrut(model, k * period, period, interpolate(around.data()), state);
     if (k < last - 100) continue;
     // d'' + b1 d' + b0 d = w''.

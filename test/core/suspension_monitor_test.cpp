@@ -33,7 +33,7 @@ void expectSameParameters(const StrutEstimate& a, const StrutEstimate& b) {
 // As long as every row counts: a second of zeros may be held for rest, a drive without it is not.
 TEST(SuspensionMonitor, AddsNothingToFilterAndEstimators) {
   MonitorSettings exponential = liveOptions();
-  exponential.estimators.forgets_unexcited = true;
+  exponential.forgets_unexcited = true;
   MonitorSettings live = liveOptions();
   live.estimators.drifting_offset = exponential.estimators.drifting_offset = false;
   const std::vector<std::pair<MonitorSettings, const char*>> cases{

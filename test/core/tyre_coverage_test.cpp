@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "interval_coverage.h"
+#include "quarter_car.h"
 #include "simulated_drive.h"
 #include "suspension_health_monitor/internal/monitor/tyre_tracker.h"
 
@@ -24,7 +25,7 @@ CleanTyreDrive cleanTyreDrive(const char* vehicle, double rate, double duration)
   simulation.vehicle = vehicle;
   simulation.rate = rate;
   simulation.noise = 0.0;
-  return {simulation, drive(simulation), makeScenario(simulation).vehicle};
+  return {simulation, drive(simulation), carOf(simulation)};
 }
 
 using TyreCoverages = std::array<std::array<Coverage, 3>, 2>;  // by estimator (LS, LA) and parameter

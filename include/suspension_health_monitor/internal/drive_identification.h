@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +9,6 @@
 #include "suspension_health_monitor/vehicle.h"
 
 namespace suspension_health_monitor {
-
-/// @return what is wrong with the stamps for the sample period that was given, in words; nothing: they fit.
-std::optional<std::string> periodWarning(const SuspensionMonitor& monitor);
 
 /// @param over_the_drive  the block estimate over all readings.  @param rejected  readings that were kept out.
 /// @return what is known of a strut at the end of a recorded drive.

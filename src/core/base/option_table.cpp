@@ -6,10 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
-#include "suspension_health_monitor/internal/base/setting_groups.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
@@ -35,15 +33,21 @@ constexpr std::pair<std::string_view, std::string_view> kFormerOptions[] = {
      "its default always holds"},
 };
 
+// A number may come as text: command lines have nothing else, and YAML 1.1 reads 1e-8 (no dot) as text.
+std::optional<double> asNumber(const OptionValue& value) {
+  double number = 0.0;
+  if (const auto* d = std::get_if<double>(&value)) return *d;
+  if (const auto* i = std::get_if<int>(&value)) return *i;
+  const auto* text = std::get_if<std::string>(&value);
+  if (text != nullptr && boost::conversion::try_lexical_convert(*text, number)) return number;
+  return std::nullopt;
+}
+
 std::string format(const OptionValue& value) {
-  struct Formatter {
-    std::string operator()(bool b) const { return b ? "true" : "false"; }
-    std::string operator()(int i) const { return std::to_string(i); }
-    std::string operator()(double d) const { return numberText(d); }
-    std::string operator()(const std::string& s) const { return '"' + shortened(s) + '"'; }
-    std::string operator()(const UnusableList& list) const { return shortened(list.text); }
-  };
-  return std::visit(Formatter{}, value);
+  if (const auto* text = std::get_if<std::string>(&value)) return '"' + shortened(*text) + '"';
+  if (const auto* list = std::get_if<UnusableList>(&value)) return shortened(list->text);
+  if (const auto* b = std::get_if<bool>(&value)) return *b ? "true" : "false";
+  return numberText(*asNumber(value));
 }
 
 bool isChoice(std::string_view choices, const std::string& word) {
@@ -68,25 +72,18 @@ std::string allowedText(const option_table::Bound& option) {
                               "], must be " + allowedText(option) + or_list + ": " + std::string(option.help));
 }
 
-// A number may come as text: command lines have nothing else, and YAML 1.1 reads 1e-8 (no dot) as text.
-std::optional<double> asNumber(const OptionValue& value) {
-  double number = 0.0;
-  if (const auto* d = std::get_if<double>(&value)) return *d;
-  if (const auto* i = std::get_if<int>(&value)) return *i;
-  const auto* text = std::get_if<std::string>(&value);
-  if (text != nullptr && boost::conversion::try_lexical_convert(*text, number)) return number;
-  return std::nullopt;
-}
+// Each takes a value as one of the kind of an option, which the type of the second argument tells; nothing if they
+// differ.
 
 // A whole number may be written as 30 or 30.0; anything with a fraction is refused.
-std::optional<int> asWhole(const OptionValue& value) {
+std::optional<int> converted(const OptionValue& value, const int* /*kind*/) {
   const std::optional<double> number = asNumber(value);
   if (number && std::abs(*number) <= std::numeric_limits<int>::max() && std::trunc(*number) == *number)
     return static_cast<int>(*number);
   return std::nullopt;
 }
 
-std::optional<bool> asBool(const OptionValue& value) {
+std::optional<bool> converted(const OptionValue& value, const bool* /*kind*/) {
   if (const auto* b = std::get_if<bool>(&value)) return *b;
   const auto* text = std::get_if<std::string>(&value);
   if (text != nullptr && (*text == "true" || *text == "True")) return true;
@@ -94,23 +91,15 @@ std::optional<bool> asBool(const OptionValue& value) {
   return std::nullopt;
 }
 
-std::optional<std::string> asText(const OptionValue& value) {
+std::optional<std::string> converted(const OptionValue& value, const std::string* /*kind*/) {
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   if (const auto* i = std::get_if<int>(&value)) return std::to_string(*i);  // a name such as 17
   return std::nullopt;
 }
 
-/// @return the value as one of the kind of an option; nothing if the kinds differ.
-template <class Kind>
-auto as(const OptionValue& value) {
-  if constexpr (std::is_same_v<Kind, bool>)
-    return asBool(value);
-  else if constexpr (std::is_same_v<Kind, std::string>)
-    return asText(value);
-  else if constexpr (std::is_same_v<Kind, int>)
-    return asWhole(value);
-  else
-    return asNumber(value);
+template <class Number>  // double or std::optional<double>
+std::optional<double> converted(const OptionValue& value, const Number* /*kind*/) {
+  return asNumber(value);
 }
 
 /// @throws std::invalid_argument  if a name is longer than any that somebody has chosen.
@@ -130,7 +119,7 @@ std::optional<OptionValue> valueOf(const Bound& option) {
 
 void assign(const Bound& option, const OptionValue& value) {
   const auto copy = [&](auto* target) {
-    const auto source = as<std::decay_t<decltype(*target)>>(value);
+    const auto source = converted(value, target);
     if (source) *target = *source;
     return source.has_value();
   };

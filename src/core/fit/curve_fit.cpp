@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nodal_law.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/linear_response.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "whitening.h"
@@ -34,14 +35,6 @@ double variableOf(const StrutMotion& motion, std::size_t which) {
 
 bool hasMemory(const ActiveEffect& active) { return static_cast<bool>(active.effect.memory_rate); }
 
-/// Takes the effects without memory out of a model.
-std::vector<ActiveEffect> takeMomentary(StrutModel& model) {
-  const auto first = std::stable_partition(model.effects.begin(), model.effects.end(), hasMemory);
-  std::vector<ActiveEffect> momentary(first, model.effects.end());
-  model.effects.erase(first, model.effects.end());
-  return momentary;
-}
-
 double sumOf(const std::vector<ActiveEffect>& effects, const StrutMotion& motion) {
   double sum = 0.0;
   for (const ActiveEffect& active : effects) sum += active.force(motion);
@@ -58,7 +51,7 @@ class CurveFit {
         slopes_{std::max(start.model.damping_to_mass, 0.2 * std::sqrt(start.model.stiffness_to_mass)),
                 start.model.stiffness_to_mass},
         rest_(start.model),
-        momentary_(takeMomentary(rest_)),
+        momentary_(takeUnless(rest_.effects, hasMemory)),
         fit_(start),
         accuracy_(accuracyOfFreeRuns(records)) {
     const LinearResponse response(records, start);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/math/periodogram.h"
@@ -48,7 +49,7 @@ FitOutcome residualsOfNoise(const std::vector<CornerSample>& noise, double perio
 
 /// rms of white noise that is as dense as w'' just below half the rate.
 double levelAtLimit(const Records& records) {
-  const Eigen::ArrayXd power = meanPower(seriesOf(segmentsOf(records), &DriveSegment::unsprung));
+  const Eigen::ArrayXd power = meanPower(mapped(segmentsOf(records), &DriveSegment::unsprung));
   const double at_limit = power.tail(1 + kAtLimit).head(kAtLimit).sum() / kAtLimit;
   return std::sqrt(at_limit / Periodogram(kWindow).taperPower());
 }
@@ -140,7 +141,7 @@ NoiseFloor bandNoise(const Residuals& residuals, const Residuals& wheel, double 
 }  // namespace
 
 double shareAtSamplingLimit(const Records& records) {
-  const double power = meanSquare(seriesOf(segmentsOf(records), &DriveSegment::unsprung));
+  const double power = meanSquare(mapped(segmentsOf(records), &DriveSegment::unsprung));
   return power > 0.0 ? levelAtLimit(records) / std::sqrt(power) : 0.0;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/free_form.h"
 #include "suspension_health_monitor/internal/identification/horizon_selection.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
@@ -159,7 +160,7 @@ double unpredicted(const Segments& segments, const StrutModel& model) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return 0.0;
-  Series series = seriesOf(segments, &DriveSegment::sprung);
+  Series series = mapped(segments, &DriveSegment::sprung);
   auto [weights, error] = interpolated(segments, places, series);
   const double plain = deviationOf(error) * std::sqrt(count / (count - kTerms));
   FreeFormLaws laws(segments);
@@ -193,7 +194,7 @@ double lostInSampling(const Records& records, const ModelFit& fit) {
   const std::vector<Place> places = choosePlaces(segments);
   const auto count = static_cast<double>(places.size());
   if (count <= 2.0 * kTerms) return 0.0;
-  Series predicted = seriesOf(segments, &DriveSegment::sprung);
+  Series predicted = mapped(segments, &DriveSegment::sprung);
   for (std::size_t s = 0; s < predicted.size(); ++s)
     for (std::size_t k = 0; k < predicted[s].size(); ++k) predicted[s][k] -= fit.residuals[s][k];
   const Eigen::VectorXd error = interpolated(segments, places, predicted).second;
@@ -202,8 +203,8 @@ double lostInSampling(const Records& records, const ModelFit& fit) {
 }
 
 double accuracyOfFreeRuns(const Records& records) {
-  const double power = meanSquare(seriesOf(segmentsOf(records), &DriveSegment::sprung));
-  return BandlimitedInterpolator::kAccuracy * std::sqrt(power);
+  const double power = meanSquare(mapped(segmentsOf(records), &DriveSegment::sprung));
+  return kInterpolationAccuracy * std::sqrt(power);
 }
 
 }  // namespace suspension_health_monitor

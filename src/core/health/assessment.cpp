@@ -37,12 +37,13 @@ struct PartChange {
 
 // Level of one parameter. A level that holds already ends below its threshold less the hysteresis, or less a standard
 // deviation if that is more, or when the change has lost half of the significance that it began with.
-HealthLevel levelOf(const PartChange& change, HealthLevel before, const HealthOptions& options) {
+HealthLevel levelOf(const PartChange& change, HealthLevel before) {
+  constexpr double kHysteresis = 0.02;
   const double size = std::abs(change.size);
   const auto reaches = [&](HealthLevel level, double threshold) {
     const bool holds = before >= level && before != HealthLevel::kStale;
     if (change.significance < kCertain * (holds ? 0.5 : 1.0)) return false;
-    return size + 1e-9 >= threshold - (holds ? std::fmax(options.hysteresis, change.stddev) : 0.0);
+    return size + 1e-9 >= threshold - (holds ? std::fmax(kHysteresis, change.stddev) : 0.0);
   };
   if (reaches(HealthLevel::kError, change.error)) return HealthLevel::kError;
   if (reaches(HealthLevel::kWarn, change.warn)) return HealthLevel::kWarn;
@@ -61,22 +62,22 @@ PartChange beyond(const Measured& others, PartChange change) {
 
 }  // namespace
 
-void HealthOptions::validate() const {
-  checkThresholds("damping", damping_warn, damping_error);
-  checkThresholds("stiffness", stiffness_warn, stiffness_error);
-  if (nominal_friction.has_value() != nominal_friction_gain.has_value())
+void requireConsistent(const HealthThresholds& thresholds) {
+  checkThresholds("damping", thresholds.damping_warn, thresholds.damping_error);
+  checkThresholds("stiffness", thresholds.stiffness_warn, thresholds.stiffness_error);
+  if (thresholds.nominal_friction.has_value() != thresholds.nominal_friction_gain.has_value())
     throw std::invalid_argument("nominal/friction and nominal/friction_gain must be given together, or neither");
 }
 
-HealthAssessment::HealthAssessment(const HealthOptions& options)
+HealthAssessment::HealthAssessment(const HealthThresholds& options)
     : options_(options), damping_{{}, {kLeastChange, kWindowsBetweenFalseAlarms}}, stiffness_(damping_) {
-  options.validate();
+  requireConsistent(options);
   baseline_ = nominalOf(options);
   if (baseline_.isEmpty() && options.learn_time > 0.0) learner_.emplace(options.learn_time);
 }
 
-void HealthAssessment::setOptions(const HealthOptions& options) {
-  options.validate();
+void HealthAssessment::setOptions(const HealthThresholds& options) {
+  requireConsistent(options);
   options_ = options;
 }
 
@@ -92,10 +93,10 @@ void HealthAssessment::setBaseline(const Baseline& baseline) {
 }
 
 const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& estimate, bool is_new) {
-  const bool judges = estimate.tellsChanges() && is_new;
+  const bool tells = estimate.tellsChanges(), judges = tells && is_new;
   if (judges) take(stamp, estimate);
-  HealthReport now = estimate.tellsChanges() ? judged_ : HealthReport();
-  now.doubt = estimate.tellsChanges() ? EstimateDoubt::kNone : estimate.doubt;
+  HealthReport now = tells ? judged_ : HealthReport();  // which is kStale
+  now.doubt = tells ? EstimateDoubt::kNone : estimate.doubt;
   now.sensor = sensor_;
   now.early_warning = damping_.early.isOn() || stiffness_.early.isOn();
   now.outliers = outlying_ > kOutlyingOften;
@@ -108,12 +109,9 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
     now.learning = learner_->progress();
     now.learning_restarted = learner_->restarts() > 0;
   }
-  if (!estimate.tellsChanges())
-    now.level = HealthLevel::kStale;
-  else if (sensor_.fault != SensorFault::kNone)
-    now.level = HealthLevel::kWarn;
+  const bool is_judgement = tells && sensor_.fault == SensorFault::kNone;
+  if (tells && !is_judgement) now.level = HealthLevel::kWarn;
   // The same estimate twice is no confirmation of itself, unless it needs none.
-  const bool is_judgement = estimate.tellsChanges() && sensor_.fault == SensorFault::kNone;
   const bool is_decisive =
       std::max(judged_.damping_significance * (judged_.damping_level > HealthLevel::kOk),
                judged_.stiffness_significance * (judged_.stiffness_level > HealthLevel::kOk)) > kDecisive * kCertain;
@@ -121,7 +119,7 @@ const HealthReport& HealthAssessment::update(Stamp stamp, const StrutEstimate& e
   if (judges || !is_judgement || is_decisive || stamp < report_stamp_)
     level = confirmation_.update(stamp, now.level, fromSeconds(options_.confirm_time));
   report_stamp_ = stamp;
-  if (estimate.tellsChanges() || level == HealthLevel::kStale) report_ = now;  // else the last judgement stands
+  if (tells || level == HealthLevel::kStale) report_ = now;  // else the last judgement stands
   report_.level = level;
   return report_;
 }
@@ -134,7 +132,7 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
     if (const std::optional<Baseline> learned = learner_->add(stamp, estimate, seconds)) setBaseline(*learned);
   MeasuredChange measured = changeFrom(baseline_, estimate);
   const auto carryOn = [&](Parameter& parameter, std::optional<Measured>& change) {
-    if (change) change = parameter.trend.carryOn(*change, estimate.age, toSeconds(stamp), estimate.window, kCertain);
+    if (change) change = parameter.trend.carryOn(*change, estimate.age, toSeconds(stamp), estimate.window);
   };
   carryOn(damping_, measured.damping);
   carryOn(stiffness_, measured.stiffness);
@@ -144,12 +142,16 @@ void HealthAssessment::take(Stamp stamp, const StrutEstimate& estimate) {
   judged_.friction_doubt = judged_.uncertain && measured.is_mostly_friction;
   noteLoad(change);
   since_early_ += seconds;
-  updateEarlyWarning(change, estimate.window);
+  if (since_early_ < estimate.window) return;
+  since_early_ = 0.0;
+  if (change.damping)
+    damping_.early.add(std::expm1(damping_change_->value - (others_ ? others_->value : 0.0)), change.damping_stddev);
+  if (change.stiffness) stiffness_.early.add(*change.stiffness, change.stiffness_stddev);
 }
 
 // The load is known while nothing but it has changed, and that is certain enough to be no beginning of a damage.
 void HealthAssessment::noteLoad(const StrutChange& change) {
-  if (!change.load_alone) return;
+  if (!change.distance_from_load) return;
   const double apart = std::abs(change.measured.damping->value - change.measured.stiffness->value);
   if (apart + kLikely * change.apartStddev() < std::min(options_.damping_warn, options_.stiffness_warn) / 2.0)
     known_load_ = std::log1p(*change.payload);
@@ -157,8 +159,8 @@ void HealthAssessment::noteLoad(const StrutChange& change) {
 
 // A part whose parameter has certainly changed, while a load may have done it.
 LoadDoubt HealthAssessment::doubtOfLoad(const StrutChange& change) const {
-  if (!change.load_alone) return LoadDoubt::kNone;
-  const bool load_may = change.load_alone->distance < kCertain;
+  if (!change.distance_from_load) return LoadDoubt::kNone;
+  const bool load_may = *change.distance_from_load < kCertain;
   const auto is_doubtful = [&](double part, double stddev, double warn) {
     return load_may && std::abs(part) >= warn && logSize(part) >= kCertain * stddev;
   };
@@ -175,8 +177,8 @@ void HealthAssessment::judge(const StrutChange& change) {
   now.load_doubt = doubtOfLoad(change);
   const auto part = [&](double size, double stddev, const Measured& measured, double warn, double error) {
     PartChange its{size, stddev, logSize(size) / stddev, measured.stddev, warn, error};
-    if (change.load_alone) {  // NaN: not known
-      its.significance = std::fmin(its.significance, change.load_alone->distance);
+    if (change.distance_from_load) {  // NaN: not known
+      its.significance = std::fmin(its.significance, *change.distance_from_load);
       its.blind = std::fmax(its.blind, change.apartStddev());
     }
     return its;
@@ -186,10 +188,10 @@ void HealthAssessment::judge(const StrutChange& change) {
                                     options_.damping_warn, options_.damping_error);
     now.damping_significance = damping.significance;
     const HealthLevel before = damping_.level;
-    damping_.level = levelOf(damping, before, options_);
+    damping_.level = levelOf(damping, before);
     damping_change_ = Measured{std::log1p(*change.damping), change.damping_stddev};
     if (others_ && damping_.level < HealthLevel::kError) {
-      const HealthLevel own = levelOf(beyond(*others_, damping), before, options_);
+      const HealthLevel own = levelOf(beyond(*others_, damping), before);
       if (own == HealthLevel::kOk && damping_.level == HealthLevel::kWarn)
         now.shared_damping_change = std::expm1(nearestToNone(std::minmax(damping_change_->value, others_->value)));
       if (own != HealthLevel::kStale) damping_.level = std::min(own, HealthLevel::kWarn);
@@ -200,7 +202,7 @@ void HealthAssessment::judge(const StrutChange& change) {
     const PartChange stiffness = part(*change.stiffness, change.stiffness_stddev, *change.measured.stiffness,
                                       options_.stiffness_warn, options_.stiffness_error);
     now.stiffness_significance = stiffness.significance;
-    stiffness_.level = levelOf(stiffness, stiffness_.level, options_);
+    stiffness_.level = levelOf(stiffness, stiffness_.level);
   }
   now.damping_level = damping_.level;
   now.stiffness_level = stiffness_.level;
@@ -208,14 +210,6 @@ void HealthAssessment::judge(const StrutChange& change) {
   now.level = std::max(known(damping_.level), known(stiffness_.level));
   now.uncertain = std::max(damping_.level, stiffness_.level) == HealthLevel::kStale;
   if (now.level == HealthLevel::kOk && now.uncertain) now.level = HealthLevel::kStale;
-}
-
-void HealthAssessment::updateEarlyWarning(const StrutChange& change, double window) {
-  if (since_early_ < window) return;
-  since_early_ = 0.0;
-  if (change.damping)
-    damping_.early.add(std::expm1(damping_change_->value - (others_ ? others_->value : 0.0)), change.damping_stddev);
-  if (change.stiffness) stiffness_.early.add(*change.stiffness, change.stiffness_stddev);
 }
 
 }  // namespace suspension_health_monitor

@@ -148,26 +148,26 @@ double BaselineLearner::Half::varianceOfMean(const Parameter& parameter) const {
 }
 
 bool BaselineLearner::drifts() const {
-  const auto& [a, b] = halves_;
-  const auto apart = [&](double first, double second, const Parameter& of_first, const Parameter& of_second,
-                         double warmth) {
-    const double difference = std::abs(second - first);
+  const Half &a = halves_[0], &b = halves_[1];
+  const auto apart = [&](const Parameter& first, const Parameter& second, double warmth) {
+    const double difference = std::abs(second.mean - first.mean);
     const double variance =
-        a.varianceOfMean(of_first) + b.varianceOfMean(of_second) + square(warmth * (first + second) / 2.0);
-    return difference > kLeastChange * std::abs(first) && difference > kProven * std::sqrt(variance);
+        a.varianceOfMean(first) + b.varianceOfMean(second) + square(warmth * (first.mean + second.mean) / 2.0);
+    return difference > kLeastChange * std::abs(first.mean) && difference > kProven * std::sqrt(variance);
   };
-  const double gain = a.friction && b.friction ? (a.friction->damping_gain + b.friction->damping_gain) / 2.0 : 0.0;
-  const auto damping = [&](const Half& half) {
-    return half.damping.mean + (half.friction ? half.friction->force * gain : 0.0);
-  };
+  Parameter before = a.damping, after = b.damping;  // with what friction acts as
+  if (a.friction && b.friction) {
+    const double gain = (a.friction->damping_gain + b.friction->damping_gain) / 2.0;
+    before.mean += a.friction->force * gain;
+    after.mean += b.friction->force * gain;
+  }
   const double warmth = a.celsius && b.celsius ? DamperTemperature::kPriorStddev * (*b.celsius - *a.celsius) : 0.0;
-  return apart(damping(a), damping(b), a.damping, b.damping, warmth) ||
-         apart(a.stiffness.mean, b.stiffness.mean, a.stiffness, b.stiffness, 0.0);
+  return apart(before, after, warmth) || apart(a.stiffness, b.stiffness, 0.0);
 }
 
 // One measurement, ln(b1 of the second half / of the first) over the difference in temperature, and its prior.
 std::optional<DamperTemperature> BaselineLearner::temperature() const {
-  const auto& [a, b] = halves_;
+  const Half &a = halves_[0], &b = halves_[1];
   if (!a.celsius || !b.celsius) return std::nullopt;
   const double warmer = *b.celsius - *a.celsius, prior = square(DamperTemperature::kPriorStddev);
   const double noise =
@@ -178,7 +178,7 @@ std::optional<DamperTemperature> BaselineLearner::temperature() const {
 }
 
 Baseline BaselineLearner::result(Stamp to) const {
-  const auto& [a, b] = halves_;
+  const Half &a = halves_[0], &b = halves_[1];
   // Overlapping windows share readings; what friction's law leaves unknown no time removes.
   const double windows = std::max(1.0, 2.0 * seconds_ / (a.window + b.window));
   const double share = 1.0 / std::sqrt(windows);

@@ -148,9 +148,8 @@ void compareAxles(const Changes& changes, const Members& valid, CornerComparison
     }
     const Change ratio = against(changes[left], changes[right]);
     if (!counts(ratio.size[kStrut], ratio.variance[kStrut])) continue;
-    const bool left_is_weaker = ratio.size[changedPart(ratio.size)] < 0.0;
-    left_is_weaker ? accuse(report, left, ratio, right)
-                   : accuse(report, right, against(changes[right], changes[left]), left);
+    const std::size_t weaker = ratio.size[changedPart(ratio.size)] < 0.0 ? left : right, other = sameAxle(weaker);
+    accuse(report, weaker, against(changes[weaker], changes[other]), other);
   }
 }
 

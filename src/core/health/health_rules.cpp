@@ -35,18 +35,16 @@ double StrutChange::apartStddev() const {
   return std::sqrt(std::max(d * d + s * s - 2.0 * measured.correlation * d * s, 0.0));
 }
 
-LoadAlone explainByLoad(const MeasuredChange& both, const LoadRange& range) {
+double distanceFromLoad(const MeasuredChange& both, const LoadRange& range) {
   const double d = both.damping->stddev, s = both.stiffness->stddev, joint = both.correlation * d * s;
   Eigen::Matrix2d covariance;
   covariance << d * d, joint, joint, s * s;
   const Eigen::Matrix2d information = covariance.inverse();
   const Eigen::Vector2d measured(both.damping->value, both.stiffness->value), load_moves(-1.0, -1.0);
   const Eigen::Vector2d weights = information * load_moves;
-  LoadAlone load;
-  load.log_mass = std::clamp(weights.dot(measured) / weights.dot(load_moves), range.first, range.second);
-  const Eigen::Vector2d residual = measured - load.log_mass * load_moves;
-  load.distance = std::sqrt(std::max(residual.dot(information * residual), 0.0));  // of NaN, which is not known, NaN
-  return load;
+  const double best = std::clamp(weights.dot(measured) / weights.dot(load_moves), range.first, range.second);
+  const Eigen::Vector2d residual = measured - best * load_moves;
+  return std::sqrt(std::max(residual.dot(information * residual), 0.0));  // of NaN, which is not known, NaN
 }
 
 StrutChange splitChange(const MeasuredChange& measured, double payload_range, double known_load) {
@@ -58,7 +56,7 @@ StrutChange splitChange(const MeasuredChange& measured, double payload_range, do
     if (payload_range > 0.0) {
       const LoadRange range = logRange(payload_range);
       load = commonLoad(*damping, *stiffness, range, known_load);
-      change.load_alone = explainByLoad(measured, range);
+      change.distance_from_load = distanceFromLoad(measured, range);
     }
     change.payload = std::expm1(load.value);
   }
@@ -80,7 +78,6 @@ HealthReport reportOf(const StrutChange& change) {
 }
 
 HealthLevel LevelConfirmation::update(Stamp stamp, HealthLevel now, Stamp confirm_time) {
-  if (now == confirmed_ && pending_ == confirmed_ && stamp >= pending_since_) return confirmed_;  // as nearly always
   if (stamp < pending_since_ || !confirmEachOther(confirmed_, now, pending_)) {
     pending_ = now;
     pending_since_ = stamp;
@@ -108,7 +105,7 @@ void EarlyWarning::Sum::add(double step, double threshold) {
   if (value == 0.0) on = false;
 }
 
-Measured ChangeTrend::carryOn(const Measured& change, double age, double now, double window, double certain) {
+Measured ChangeTrend::carryOn(const Measured& change, double age, double now, double window) {
   if (now < last_) restart();
   const double spacing = points_.empty() ? window : now - last_;
   last_ = now;
@@ -127,7 +124,7 @@ Measured ChangeTrend::carryOn(const Measured& change, double age, double now, do
     information += point.weight * std::pow(point.time - time, 2);
     product += point.weight * (point.time - time) * (point.size - size);
   }
-  if (!(product * product > certain * certain * information)) return change;
+  if (!(product * product > square(kCertain) * information)) return change;
   const double slope = product / information;
   return {change.value + std::clamp(slope * age, -kLeastChange, kLeastChange),
           std::hypot(change.stddev, age / std::sqrt(information))};

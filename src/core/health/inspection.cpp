@@ -1,7 +1,9 @@
 #include "suspension_health_monitor/internal/health/inspection.h"
 
 #include <algorithm>
+#include <complex>
 
+#include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
@@ -9,6 +11,10 @@
 
 namespace suspension_health_monitor {
 namespace {
+
+constexpr double kPlateAmplitude = 0.003;  // [m]: 6 mm from top to bottom
+constexpr double kPlateHighest = 25.0;     // [Hz]
+constexpr int kPlateFrequencies = 250;     // 0.1 Hz apart: a twentieth of the width of a wheel hop that is well damped
 
 // Chance that a vehicle whose numbers are all at their limits fails.
 constexpr double kFalseFail = 0.01;
@@ -76,138 +82,137 @@ ValueRange adhesionRange(const ValueRange& damping, const ValueRange& stiffness,
     for (const int spring : {0, kSteps})
       for (const int mass : {0, kSteps})
         for (int tyre = 0; tyre <= kSteps; ++tyre) {
-          const double adhesion = leastAdhesion(
-              {at(damping, damper), at(stiffness, spring), at(wheel.mass_ratio, mass), at(wheel.tyre_to_mass, tyre)});
+          const double adhesion = leastAdhesion({at(damping, damper), at(stiffness, spring)},
+                                                at(wheel.mass_ratio, mass), at(wheel.tyre_to_mass, tyre));
           range = {std::min(range.low, adhesion), std::max(range.high, adhesion)};
         }
   return range;
 }
 
-class Inspector {
- public:
-  Inspector(const std::vector<InspectedStrut>& struts, const InspectionLimits& limits) : struts_(struts) {
-    for (std::size_t i = 0; i < struts.size(); ++i) {
-      add(InspectedQuantity::kDampingRatio, {i}, limits.damping_ratio);
-      if (struts[i].wheel) add(InspectedQuantity::kAdhesion, {i}, limits.adhesion);
-    }
-    for (const StrutPair& axle : axles())
-      for (const InspectedQuantity quantity :
-           {InspectedQuantity::kDampingImbalance, InspectedQuantity::kStiffnessImbalance})
-        add(quantity, {axle.first, axle.second}, limits.imbalance);
-    certain_ = normalQuantile(kFalseFail / static_cast<double>(numbers_.size()));
-  }
+using Struts = std::vector<InspectedStrut>;
 
-  Inspection result() {
-    Inspection result;
-    for (const InspectedStrut& strut : struts_)
-      result.frequencies.push_back(doubtOf(strut).empty() ? frequencyOf(strut.estimate) : ValueRange());
-    for (InspectedNumber& number : numbers_)
-      if (number.doubt.empty()) judge(number);
-    using Verdict = InspectionVerdict;
-    for (const Verdict worse : {Verdict::kPasses, Verdict::kCannotTell, Verdict::kFails})
-      for (const InspectedNumber& number : numbers_)
-        if (number.verdict == worse) result.verdict = worse;
-    result.numbers = std::move(numbers_);
-    return result;
-  }
-
- private:
-  // Pairs of left and right.
-  std::vector<StrutPair> axles() const {
-    StrutPlaces places;
-    for (const InspectedStrut& strut : struts_)
-      if (strut.place) places.push_back(*strut.place);
-    std::vector<StrutPair> pairs;
-    if (places.size() == struts_.size()) {
-      pairs = pairsOf(places);
-      for (auto& [left, right] : pairs)
-        if (places[left][1] < places[right][1]) std::swap(left, right);
-      return pairs;
-    }
-    for (const std::size_t left : {0, 2}) {
-      const auto place = [&](std::size_t corner) {
-        const auto is_it = [&](const InspectedStrut& strut) { return strut.name == kCornerNames[corner]; };
-        return std::find_if(struts_.begin(), struts_.end(), is_it) - struts_.begin();
-      };
-      const StrutPair pair(place(left), place(left + 1));
-      if (std::max(pair.first, pair.second) < struts_.size()) pairs.push_back(pair);
-    }
+// Pairs of left and right.
+std::vector<StrutPair> axlesOf(const Struts& struts) {
+  StrutPlaces places;
+  for (const InspectedStrut& strut : struts)
+    if (strut.place) places.push_back(*strut.place);
+  std::vector<StrutPair> pairs;
+  if (places.size() == struts.size()) {
+    pairs = pairsOf(places);
+    for (auto& [left, right] : pairs)
+      if (places[left][1] < places[right][1]) std::swap(left, right);
     return pairs;
   }
+  const std::vector<std::string> names = namesOf(struts);
+  const auto place = [&](std::size_t corner) {
+    return std::find(names.begin(), names.end(), kCornerNames[corner]) - names.begin();
+  };
+  for (const std::size_t left : {0, 2}) {
+    const StrutPair pair(place(left), place(left + 1));
+    if (std::max(pair.first, pair.second) < struts.size()) pairs.push_back(pair);
+  }
+  return pairs;
+}
 
-  void add(InspectedQuantity quantity, const std::vector<std::size_t>& of, double limit) {
-    InspectedNumber number;
+// What is asked, not judged yet.
+std::vector<InspectedNumber> openNumbers(const Struts& struts, const InspectionLimits& limits) {
+  std::vector<InspectedNumber> numbers;
+  const auto add = [&](InspectedQuantity quantity, const std::vector<std::size_t>& of, double limit) {
+    InspectedNumber& number = numbers.emplace_back();
     number.quantity = quantity;
     number.struts = of;
     number.limit = limit;
     for (const std::size_t i : of)
-      if (number.doubt.empty()) number.doubt = doubtOf(struts_[i]);
-    numbers_.push_back(std::move(number));
+      if (number.doubt.empty()) number.doubt = doubtOf(struts[i]);
+  };
+  for (std::size_t i = 0; i < struts.size(); ++i) {
+    add(InspectedQuantity::kDampingRatio, {i}, limits.damping_ratio);
+    if (struts[i].wheel) add(InspectedQuantity::kAdhesion, {i}, limits.adhesion);
   }
-
-  // What an imbalance compares, of one strut.
-  Uncertain partOf(const InspectedNumber& number, std::size_t strut) const {
-    const StrutEstimate& its = struts_[strut].estimate;
-    return number.quantity == InspectedQuantity::kDampingImbalance ? dampingOf(its) : stiffnessOf(its);
+  for (const auto& [left, right] : axlesOf(struts)) {
+    add(InspectedQuantity::kDampingImbalance, {left, right}, limits.imbalance);
+    add(InspectedQuantity::kStiffnessImbalance, {left, right}, limits.imbalance);
   }
+  return numbers;
+}
 
-  // The model is the same on both sides: most of its error is in both struts alike and leaves their ratio as it is.
-  Uncertain imbalance(const InspectedNumber& number) const {
-    const std::size_t left = number.struts.front(), right = number.struts.back();
-    const Uncertain weaker = partOf(number, *number.weaker);
-    const Uncertain stronger = partOf(number, *number.weaker == left ? right : left);
-    const double ratio = weaker.value / stronger.value;
-    const auto both = [&](double Uncertain::*error) {
-      return std::hypot(weaker.*error, ratio * stronger.*error) / stronger.value;
-    };
-    return {1.0 - ratio, both(&Uncertain::stddev), kOwnShare * both(&Uncertain::model_stddev)};
-  }
+// What an imbalance compares, of one strut.
+Uncertain partOf(const InspectedNumber& number, const InspectedStrut& strut) {
+  return number.quantity == InspectedQuantity::kDampingImbalance ? dampingOf(strut.estimate)
+                                                                 : stiffnessOf(strut.estimate);
+}
 
-  // Of any number but an adhesion.
-  Uncertain uncertain(const InspectedNumber& number) const {
-    return isImbalance(number) ? imbalance(number) : dampingRatioOf(struts_[number.struts.front()].estimate);
-  }
+// Of any number but an adhesion. The model is the same on both sides of an axle: most of its error is in both struts
+// alike and leaves their ratio as it is.
+Uncertain measuredOf(const InspectedNumber& number, const Struts& struts) {
+  const std::size_t left = number.struts.front(), right = number.struts.back();
+  if (!isImbalance(number)) return dampingRatioOf(struts[left].estimate);
+  const Uncertain weaker = partOf(number, struts[*number.weaker]);
+  const Uncertain stronger = partOf(number, struts[*number.weaker == left ? right : left]);
+  const double ratio = weaker.value / stronger.value;
+  const auto both = [&](double Uncertain::*error) {
+    return std::hypot(weaker.*error, ratio * stronger.*error) / stronger.value;
+  };
+  return {1.0 - ratio, both(&Uncertain::stddev), kOwnShare * both(&Uncertain::model_stddev)};
+}
 
+// @param certain  standard deviations that a failure needs.
+void judge(InspectedNumber& number, const Struts& struts, double certain) {
+  const std::size_t left = number.struts.front(), right = number.struts.back();
+  const bool is_imbalance = isImbalance(number), is_adhesion = number.quantity == InspectedQuantity::kAdhesion;
+  if (is_imbalance)
+    number.weaker = partOf(number, struts[left]).value < partOf(number, struts[right]).value ? left : right;
   // As many standard deviations either way, from so many times the data.
-  ValueRange intervalOf(const InspectedNumber& number, double sigmas, double longer) const {
-    if (number.quantity != InspectedQuantity::kAdhesion) return uncertain(number).range(sigmas, longer);
-    const InspectedStrut& strut = struts_[number.struts.front()];
-    return adhesionRange(dampingOf(strut.estimate).range(sigmas, longer),
-                         stiffnessOf(strut.estimate).range(sigmas, longer), *strut.wheel);
-  }
-
-  void judge(InspectedNumber& number) const {
-    const std::size_t left = number.struts.front(), right = number.struts.back();
-    if (isImbalance(number)) number.weaker = partOf(number, left).value < partOf(number, right).value ? left : right;
-    if (number.quantity == InspectedQuantity::kAdhesion) {
-      const ValueRange typical = intervalOf(number, 0.0, 1.0);
-      number.value = (typical.low + typical.high) / 2.0;
-    } else {
-      number.value = uncertain(number).value;
-    }
-    number.interval = intervalOf(number, kTwoSided95, 1.0);
-    number.verdict = verdictOn(number, 1.0);
-    for (double longer = 2.0; longer <= kMostLonger && !number.longer; longer *= 2.0)
-      if (verdictOn(number, longer) != InspectionVerdict::kCannotTell) number.longer = longer;
-  }
-
-  InspectionVerdict verdictOn(const InspectedNumber& number, double longer) const {
-    const ValueRange likely = intervalOf(number, kTwoSided95, longer), certain = intervalOf(number, certain_, longer);
-    const bool most = isImbalance(number);
-    if (most ? likely.high <= number.limit : likely.low >= number.limit) return InspectionVerdict::kPasses;
-    if (most ? certain.low > number.limit : certain.high < number.limit) return InspectionVerdict::kFails;
+  const auto interval = [&](double sigmas, double longer) {
+    if (!is_adhesion) return measuredOf(number, struts).range(sigmas, longer);
+    const StrutEstimate& its = struts[left].estimate;
+    return adhesionRange(dampingOf(its).range(sigmas, longer), stiffnessOf(its).range(sigmas, longer),
+                         *struts[left].wheel);
+  };
+  const auto verdict = [&](double longer) {
+    const ValueRange likely = interval(kTwoSided95, longer), sure = interval(certain, longer);
+    if (is_imbalance ? likely.high <= number.limit : likely.low >= number.limit) return InspectionVerdict::kPasses;
+    if (is_imbalance ? sure.low > number.limit : sure.high < number.limit) return InspectionVerdict::kFails;
     return InspectionVerdict::kCannotTell;
-  }
-
-  const std::vector<InspectedStrut>& struts_;
-  std::vector<InspectedNumber> numbers_;
-  double certain_ = 0.0;
-};
+  };
+  const ValueRange typical = is_adhesion ? interval(0.0, 1.0) : ValueRange();
+  number.value = is_adhesion ? (typical.low + typical.high) / 2.0 : measuredOf(number, struts).value;
+  number.interval = interval(kTwoSided95, 1.0);
+  number.verdict = verdict(1.0);
+  for (double longer = 2.0; longer <= kMostLonger && !number.longer; longer *= 2.0)
+    if (verdict(longer) != InspectionVerdict::kCannotTell) number.longer = longer;
+}
 
 }  // namespace
 
+double adhesionAt(double frequency, const LinearStrut& strut, double mass_ratio, double tyre_to_mass) {
+  const std::complex<double> s(0.0, 2.0 * M_PI * frequency);
+  const std::complex<double> force = strut.damping_to_mass * s + strut.stiffness_to_mass;
+  const std::complex<double> inertia = s * s * (force / (s * s + force) + mass_ratio);
+  const double swing = std::abs(tyre_to_mass * inertia / (tyre_to_mass + inertia)) * kPlateAmplitude;
+  return std::max(0.0, 1.0 - swing / ((1.0 + mass_ratio) * kStandardGravity));
+}
+
+double leastAdhesion(const LinearStrut& strut, double mass_ratio, double tyre_to_mass) {
+  double least = 1.0;
+  for (int i = 1; i <= kPlateFrequencies; ++i)
+    least = std::min(least, adhesionAt(kPlateHighest * i / kPlateFrequencies, strut, mass_ratio, tyre_to_mass));
+  return least;
+}
+
 Inspection inspect(const std::vector<InspectedStrut>& struts, const InspectionLimits& limits) {
-  return struts.empty() ? Inspection() : Inspector(struts, limits).result();
+  Inspection result;
+  if (struts.empty()) return result;
+  for (const InspectedStrut& strut : struts)
+    result.frequencies.push_back(doubtOf(strut).empty() ? frequencyOf(strut.estimate) : ValueRange());
+  result.numbers = openNumbers(struts, limits);
+  const double certain = normalQuantile(kFalseFail / static_cast<double>(result.numbers.size()));
+  for (InspectedNumber& number : result.numbers)
+    if (number.doubt.empty()) judge(number, struts, certain);
+  for (const auto worse : {InspectionVerdict::kPasses, InspectionVerdict::kCannotTell, InspectionVerdict::kFails})
+    for (const InspectedNumber& number : result.numbers)
+      if (number.verdict == worse) result.verdict = worse;
+  return result;
 }
 
 std::string describe(const InspectedNumber& number, const std::vector<InspectedStrut>& struts, double seconds) {

@@ -3,8 +3,7 @@
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/identification/recursive_covariance.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 
 namespace suspension_health_monitor {
 
@@ -54,7 +53,34 @@ const Eigen::VectorXd& UdCovariance::update(const Eigen::VectorXd& regressor, do
   return gain_;
 }
 
-RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOptions& options)
+Eigen::MatrixXd UdCovariance::matrix() const { return upper_ * diagonal_.asDiagonal() * upper_.transpose(); }
+
+BatchScatter::BatchScatter(const BatchScatter& before, const std::vector<ColumnOrigin>& columns)
+    : BatchScatter(static_cast<int>(columns.size()), before.correlated_rows_) {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].before) ratios_[i] = before.ratios_[*columns[i].before];
+}
+
+void BatchScatter::add(const Eigen::VectorXd& gain, double innovation) {
+  if (correlated_rows_ == 0 || ++rows_ <= 0) return;  // the first batch leads from the start values to the strut
+  sum_ += innovation * gain;
+  squares_ += (innovation * gain).cwiseAbs2();
+  if (rows_ < batch_rows_) return;
+  for (Eigen::Index i = 0; i < sum_.size(); ++i)
+    if (squares_[i] > 0.0) ratios_[i].add(sum_[i] * sum_[i] / squares_[i]);
+  interrupt();
+}
+
+double BatchScatter::inflation(int i) const {
+  if (correlated_rows_ == 0) return 1.0;
+  const RunningMean& ratio = ratios_[i];
+  const double n = ratio.weight();
+  // Batches cut off a part of a correlation that falls linearly: g^2 lacks 1 / (3 kCorrelationsPerBatch) of it.
+  const double kept = 1.0 - 1.0 / (3.0 * kCorrelationsPerBatch);
+  return n < kFewestBatches ? correlated_rows_ + 1.0 : std::max(1.0, ratio.mean() / kept * n / (n - 2.0));
+}
+
+RecursiveLeastSquares::RecursiveLeastSquares(int num_parameters, const RecursiveOptions& options)
     : options_(options),
       theta_(Eigen::VectorXd::Zero(num_parameters)),
       covariance_(num_parameters),
@@ -65,20 +91,20 @@ RecursiveEstimator::RecursiveEstimator(int num_parameters, const RecursiveOption
   if (options.correlated_rows < 0) refuse("correlated_rows", options.correlated_rows, "", "at least 0");
 }
 
-double RecursiveEstimator::observe(const RegressionRow& row) {
+double RecursiveLeastSquares::observe(const RegressionRow& row) {
   const double innovation = row.output - row.regressor.dot(theta_);
   means_.add({std::abs(innovation), innovation * innovation, std::abs(row.output)});
   return innovation;
 }
 
-void RecursiveEstimator::correct(const RegressionRow& row, double innovation, double weight) {
+void RecursiveLeastSquares::correct(const RegressionRow& row, double innovation, double weight) {
   const double lambda = options_.forgetting_factor;
   const Eigen::VectorXd& gain = covariance_.update(row.regressor, lambda / weight, lambda);
   scatter_.add(gain, innovation);
   theta_ += gain * innovation;
 }
 
-void RecursiveEstimator::releaseExcited(const RegressionRow& row, double residual_variance, double unit) {
+void RecursiveLeastSquares::releaseExcited(const RegressionRow& row, double residual_variance, double unit) {
   const Eigen::VectorXd& regressor = row.regressor;
   for (int i = 0; i < numParameters(); ++i) {
     if (covariance_.isReleased(i) || regressor[i] == 0.0) continue;
@@ -90,7 +116,7 @@ void RecursiveEstimator::releaseExcited(const RegressionRow& row, double residua
   }
 }
 
-void RecursiveEstimator::changeColumns(const std::vector<ColumnOrigin>& columns) {
+void RecursiveLeastSquares::changeColumns(const std::vector<ColumnOrigin>& columns) {
   const Eigen::VectorXd before = theta_;
   theta_.resize(columns.size());
   for (int i = 0; i < numParameters(); ++i)
@@ -110,17 +136,17 @@ double RecursiveLeastSquares::update(const RegressionRow& row) {
 
 double RecursiveLeastAbsolute::update(const RegressionRow& row) {
   if (row.saysNothing()) return row.output;
+  if (!leads()) {
+    const double innovation = RecursiveLeastSquares::update(row);
+    weigh(innovation);
+    if (++rows_ == options_.start_rows) takeOver();
+    return innovation;
+  }
   drift();
   const double innovation = observe(row);
   const double weight = weigh(innovation);
-  if (!leads()) {
-    releaseExcited(row, meanSquareResidual(), 1.0);
-    correct(row, innovation, 1.0);
-    if (++rows_ == options_.start_rows) takeOver();
-  } else {
-    releaseExcited(row, meanAbsoluteResidual(), options_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
-    correct(row, innovation, weight);
-  }
+  releaseExcited(row, meanAbsoluteResidual(), options_.scale_covariance_at_start ? meanAbsoluteResidual() : 1.0);
+  correct(row, innovation, weight);
   return innovation;
 }
 
@@ -135,7 +161,7 @@ double RecursiveLeastAbsolute::weigh(double innovation) {
 }
 
 void RecursiveLeastAbsolute::beginAgain(const RecursiveLeastSquares& least_squares) {
-  static_cast<RecursiveEstimator&>(*this) = least_squares;
+  static_cast<RecursiveLeastSquares&>(*this) = least_squares;
   weights_ = RunningMeans<kNumMeans>(forgettingFactor());
   rows_ = options_.start_rows;
   takeOver();

@@ -9,23 +9,21 @@
 namespace suspension_health_monitor {
 namespace {
 
-using Interpolator = BandlimitedInterpolator;  // a value between samples is made of as many on either side
-
 /// Weight of a sample at a distance of x samples: a sinc in a Hann window. In closed form, so that a fit can
 /// differentiate by the delay; good to 3e-3 up to 3/4 of Nyquist's frequency, where a rough road still shakes a car.
 double weightAt(double x) {
-  if (std::abs(x) >= Interpolator::kHalfWidth) return 0.0;
-  const double window = std::cos(M_PI * x / (2.0 * Interpolator::kHalfWidth));
+  if (std::abs(x) >= kInterpolationReach) return 0.0;
+  const double window = std::cos(M_PI * x / (2.0 * kInterpolationReach));
   return x == 0.0 ? 1.0 : window * window * std::sin(M_PI * x) / (M_PI * x);
 }
 
 /// y(t - tau); beyond its ends the series goes on as its mirror image turned over.
 void delay(double tau, double period, std::vector<double>& predicted) {
   const double shift = std::floor(-tau / period), fraction = -tau / period - shift;  // in samples
-  std::array<double, 2 * Interpolator::kHalfWidth> weights{};
+  std::array<double, 2 * kInterpolationReach> weights{};
   double sum = 0.0;
-  for (int i = 0; i < 2 * Interpolator::kHalfWidth; ++i)
-    sum += weights[i] = weightAt(i + 1 - Interpolator::kHalfWidth - fraction);
+  for (int i = 0; i < 2 * kInterpolationReach; ++i)
+    sum += weights[i] = weightAt(i + 1 - kInterpolationReach - fraction);
   for (double& weight : weights) weight /= sum;
 
   const std::vector<double> y = predicted;
@@ -39,9 +37,9 @@ void delay(double tau, double period, std::vector<double>& predicted) {
   const auto whole =
       static_cast<long>(std::clamp(shift, -2.0 * static_cast<double>(last), 2.0 * static_cast<double>(last)));
   for (long k = 0; k <= last; ++k) {
-    const long first = k + whole + 1 - Interpolator::kHalfWidth;
+    const long first = k + whole + 1 - kInterpolationReach;
     double value = 0.0;
-    for (long i = 0; i < 2 * Interpolator::kHalfWidth; ++i) value += weights[i] * at(first + i);
+    for (long i = 0; i < 2 * kInterpolationReach; ++i) value += weights[i] * at(first + i);
     predicted[k] = value;
   }
 }

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/base/text.h"
 
 namespace suspension_health_monitor {
@@ -58,8 +58,7 @@ std::vector<double*> valuesOf(StrutModel& model) {
 }
 
 std::vector<std::string> effectNames(const StrutModel& model) {
-  std::vector<std::string> names;
-  for (const ActiveEffect& active : model.effects) names.push_back(active.effect.name);
+  std::vector<std::string> names = mapped(model.effects, [](const ActiveEffect& active) { return active.effect.name; });
   for (const ActiveMeasurementEffect& active : model.reading) names.push_back(active.effect.name);
   return names;
 }
@@ -198,17 +197,16 @@ std::string toYaml(const StrutModel& model) {
                      line("", "stiffness_to_mass", model.stiffness_to_mass, "1/s^2");
   if (!model.is_complete) text += "complete: false  # it leaves more than noise: b1 and b0 are no nominal values\n";
   if (!model.effects.empty()) text += "effects:\n";
-  for (const ActiveEffect& active : model.effects) {
-    text += "  " + active.effect.name + ":\n" + line("    ", "coefficient", active.coefficient, active.effect.unit);
-    for (std::size_t i = 0; i < active.shapes.size(); ++i)
-      text += line("    ", active.effect.shapes[i].name, active.shapes[i], active.effect.shapes[i].unit);
+  for (const auto& [effect, coefficient, shapes] : model.effects) {
+    text += "  " + effect.name + ":\n" + line("    ", kCoefficient, coefficient, effect.unit);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      text += line("    ", effect.shapes[i].name, shapes[i], effect.shapes[i].unit);
   }
   if (!model.reading.empty()) text += "readings:\n";
-  for (const ActiveMeasurementEffect& active : model.reading) {
-    text += "  " + active.effect.name + ":\n";
-    for (std::size_t i = 0; i < active.coefficients.size(); ++i)
-      text +=
-          line("    ", active.effect.coefficients[i].name, active.coefficients[i], active.effect.coefficients[i].unit);
+  for (const auto& [effect, coefficients] : model.reading) {
+    text += "  " + effect.name + ":\n";
+    for (std::size_t i = 0; i < coefficients.size(); ++i)
+      text += line("    ", effect.coefficients[i].name, coefficients[i], effect.coefficients[i].unit);
   }
   return text;
 }

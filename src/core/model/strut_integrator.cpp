@@ -90,8 +90,8 @@ int numParts(const StrutModel& model, const StrutMotion& from, const StrutMotion
       fastest = std::max(fastest, ownRate(active, motion));
     }
   }
-  const double parts =
-      std::ceil(fastest * step / (2.0 * kLongestStrutStep));  // Runge-Kutta's limit of stability is 2.8
+  // Runge-Kutta's limit of stability is 2.8.
+  const double parts = std::ceil(fastest * step / (2.0 * kLongestStrutStep));
   return parts < kMostStepsPerSample ? std::max(1, static_cast<int>(parts)) : kMostStepsPerSample;  // NaN, too
 }
 
@@ -101,35 +101,19 @@ StrutMotion between(const StrutMotion& from, const StrutMotion& to, double share
           at(from.body_acceleration, to.body_acceleration)};
 }
 
-// The wheel's position within a step: the polynomial of fifth degree with the step's four gains, in shares of the step.
-class WheelPath {
- public:
-  WheelPath(const WheelStep& wheel, double step) : step_(step) {
-    const double pm = wheel.middle_position, vm = wheel.middle_velocity * step;
-    const double pe = wheel.end_position, ve = wheel.end_velocity * step;
-    coefficients_ = {7 * pe - ve + 16 * pm - 8 * vm, -34 * pe + 5 * ve - 32 * pm + 32 * vm,
-                     52 * pe - 8 * ve + 16 * pm - 40 * vm, -24 * pe + 4 * ve + 16 * vm};
-  }
-
-  WheelStep part(double from, double to) const {
-    const double middle = (from + to) / 2, start = position(from), rate = velocity(from);
-    return {position(middle) - start - (middle - from) * rate, (velocity(middle) - rate) / step_,
-            position(to) - start - (to - from) * rate, (velocity(to) - rate) / step_};
-  }
-
- private:
-  double position(double x) const {
-    const auto& [c2, c3, c4, c5] = coefficients_;
-    return x * x * (c2 + x * (c3 + x * (c4 + x * c5)));
-  }
-  double velocity(double x) const {  // per step
-    const auto& [c2, c3, c4, c5] = coefficients_;
-    return x * (2 * c2 + x * (3 * c3 + x * (4 * c4 + x * 5 * c5)));
-  }
-
-  double step_;
-  std::array<double, 4> coefficients_;
-};
+// The wheel in a part of a step, from and to being shares of the step. Its position is the polynomial of fifth degree
+// with the step's four gains.
+WheelStep partOf(const WheelStep& wheel, double step, double from, double to) {
+  const double pm = wheel.middle_position, vm = wheel.middle_velocity * step;
+  const double pe = wheel.end_position, ve = wheel.end_velocity * step;
+  const double c2 = 7 * pe - ve + 16 * pm - 8 * vm, c3 = -34 * pe + 5 * ve - 32 * pm + 32 * vm;
+  const double c4 = 52 * pe - 8 * ve + 16 * pm - 40 * vm, c5 = -24 * pe + 4 * ve + 16 * vm;
+  const auto position = [&](double x) { return x * x * (c2 + x * (c3 + x * (c4 + x * c5))); };
+  const auto velocity = [&](double x) { return x * (2 * c2 + x * (3 * c3 + x * (4 * c4 + x * 5 * c5))); };  // per step
+  const double middle = (from + to) / 2, start = position(from), rate = velocity(from);
+  return {position(middle) - start - (middle - from) * rate, (velocity(middle) - rate) / step,
+          position(to) - start - (to - from) * rate, (velocity(to) - rate) / step};
+}
 
 void integrateWithEffects(const StrutModel& model, double time, double step, const WheelStep& wheel,
                           StrutState& state) {
@@ -138,10 +122,9 @@ void integrateWithEffects(const StrutModel& model, double time, double step, con
                         state.travel_rate + wheel.end_velocity, time};
   const int parts = numParts(model, start, end, step, state.memory);
   if (parts == 1) return integrate<true>(model, time, step, wheel, state);
-  const WheelPath path(wheel, step);
   for (int i = 0; i < parts; ++i) {
     const double from = static_cast<double>(i) / parts, to = (i + 1.0) / parts;
-    integrate<true>(model, time + from * step, step / parts, path.part(from, to), state);
+    integrate<true>(model, time + from * step, step / parts, partOf(wheel, step, from, to), state);
   }
 }
 
@@ -150,9 +133,9 @@ void integrateWithEffects(const StrutModel& model, double time, double step, con
 WheelInterpolator::WheelInterpolator(double from, double to, double period)
     : is_whole_(from == 0.0 && to == 1.0), period_(period) {
   const auto set = [&](Eigen::Index row, double end, int power) {
-    const BandlimitedInterpolator integral = BandlimitedInterpolator::integral(from, end, power);
+    const std::vector<double> integral = integrationWeights(from, end, power);
     for (Eigen::Index i = 0; i < kWidth; ++i)
-      weights_(i % 2, 4 * (i / 2) + row) = std::pow(period, 1 + power) * integral.weights()[i];
+      weights_(i % 2, 4 * (i / 2) + row) = std::pow(period, 1 + power) * integral[i];
   };
   const double middle = (from + to) / 2;
   set(0, to, 1);

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "suspension_health_monitor/effects.h"
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
 
@@ -63,33 +62,29 @@ class LawExpression {
       : text_(std::move(text)),
         shapes_(std::move(shapes)),
         has_memory_(has_memory),
-        compiled_(std::make_unique<Compiled>()) {
-    mu::Parser& parser = compiled_->parser;
-    std::vector<double>& values = compiled_->values;
-    values.resize(kVariables.size() + shapes_.size(), 1.0);
+        values_(kVariables.size() + shapes_.size(), 1.0) {
     try {
       for (std::size_t i = 0; i < kVariables.size(); ++i)
-        if (i != kMemory || has_memory_) parser.DefineVar(kVariables[i], &values[i]);
-      for (std::size_t i = 0; i < shapes_.size(); ++i) parser.DefineVar(shapes_[i], &values[kVariables.size() + i]);
-      parser.SetExpr(text_);
-      parser.Eval();  // compiles: from now on evaluating allocates nothing
+        if (i != kMemory || has_memory_) parser_.DefineVar(kVariables[i], &values_[i]);
+      for (std::size_t i = 0; i < shapes_.size(); ++i) parser_.DefineVar(shapes_[i], &values_[kVariables.size() + i]);
+      parser_.SetExpr(text_);
+      parser_.Eval();  // compiles: from now on evaluating allocates nothing
     } catch (const mu::ParserError& error) {
-      refuse(parser, text_, error);
+      refuse(parser_, text_, error);
     }
-    refuseStatements(parser, text_);
+    refuseStatements(parser_, text_);
   }
 
   LawExpression(const LawExpression& other) : LawExpression(other.text_, other.shapes_, other.has_memory_) {}
-  LawExpression(LawExpression&&) = default;
+  LawExpression& operator=(const LawExpression&) = delete;  // the parser points to the values of its own object
 
   double operator()(const StrutMotion& motion, const double* shapes) const {
-    std::vector<double>& values = compiled_->values;
-    values[0] = motion.travel;
-    values[1] = motion.travel_rate;
-    values[2] = motion.time;
-    values[kMemory] = motion.memory.s;
-    std::copy_n(shapes, shapes_.size(), values.begin() + kVariables.size());
-    return compiled_->parser.Eval();
+    values_[0] = motion.travel;
+    values_[1] = motion.travel_rate;
+    values_[2] = motion.time;
+    values_[kMemory] = motion.memory.s;
+    std::copy_n(shapes, shapes_.size(), values_.begin() + kVariables.size());
+    return parser_.Eval();
   }
 
   /// @return true if expressions have that name already: a variable, a constant or a function.
@@ -100,15 +95,11 @@ class LawExpression {
   }
 
  private:
-  struct Compiled {
-    mu::Parser parser;
-    std::vector<double> values;  // d, v, t, s, shapes: the parser points to them
-  };
-
   std::string text_;
   std::vector<std::string> shapes_;
   bool has_memory_;
-  std::unique_ptr<Compiled> compiled_;
+  mutable std::vector<double> values_;  // d, v, t, s, shapes: the parser points to them
+  mu::Parser parser_;
 };
 
 constexpr std::size_t kLongestText = 200, kLongestLaw = 1000;  // [characters]
@@ -157,8 +148,8 @@ ShapeParameter makeShape(const std::string& where, const std::string& name, cons
   takeAll(where, values, kShapeFields, settings);
   if (settings.min >= settings.max) refuse(where, "min must be below max");
   checkText(where + "/unit", settings.unit);
-  static constexpr std::array kScales{"none", "travel", "travel_rate", "time",
-                                      "frequency"};  // in the order of ShapeScale
+  // In the order of ShapeScale.
+  static constexpr std::array kScales{"none", "travel", "travel_rate", "time", "frequency"};
   const auto scale = std::find(kScales.begin(), kScales.end(), settings.scale) - kScales.begin();
   return {name, settings.unit, static_cast<ShapeScale>(scale), settings.min, settings.max};
 }
@@ -175,12 +166,10 @@ LawExpression makeLaw(const std::string& where, const std::string& text, const s
 
 /// Shapes at one end of their range, for a motion of that size.
 std::vector<double> shapesAt(const std::vector<ShapeParameter>& shapes, double size, bool largest) {
-  std::vector<double> values;
-  for (const ShapeParameter& shape : shapes) {
+  return mapped(shapes, [&](const ShapeParameter& shape) {
     const bool moves = shape.scale == ShapeScale::kTravel || shape.scale == ShapeScale::kTravelRate;
-    values.push_back((largest ? shape.max : shape.min) * (moves ? size : 1.0));
-  }
-  return values;
+    return (largest ? shape.max : shape.min) * (moves ? size : 1.0);
+  });
 }
 
 /// At rest and in gentle and rough motion, both ways.

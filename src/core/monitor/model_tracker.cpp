@@ -11,13 +11,13 @@ namespace {
 constexpr int kSlowlyEvery = 8;
 
 std::vector<ColumnOrigin> origins(const std::vector<ActiveEffect>& before, const std::vector<ActiveEffect>& after) {
-  std::vector<ColumnOrigin> columns;
+  std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
   for (const ActiveEffect& active : after) {
     const auto same = std::find_if(before.begin(), before.end(), [&](const ActiveEffect& other) {
       return other.effect.name == active.effect.name && other.shapes == active.shapes;
     });
     ColumnOrigin column{std::nullopt, active.coefficient};
-    if (same != before.end()) column.before = static_cast<int>(same - before.begin());
+    if (same != before.end()) column.before = kNumStrutParameters + static_cast<int>(same - before.begin());
     columns.push_back(column);
   }
   return columns;
@@ -77,7 +77,7 @@ void ModelTracker::setEffects(const std::vector<ActiveEffect>& effects, const st
                               ModelReport& report) {
   const std::vector<ColumnOrigin> columns = origins(this->effects(), effects);
   free_run_.setEffects(effects);  // may throw: first
-  identifier_.changeEffects(columns);
+  identifier_.changeModel(columns);
   blocks_.emplace(VehicleChannels::ofAccelerometers(), period_, block_length_, effects.size());
   newest_.reset();
   has_own_model_ = is_given_ = strut && free_run_.trySetModel(strut->damping_to_mass, strut->stiffness_to_mass);

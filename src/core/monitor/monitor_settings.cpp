@@ -33,22 +33,21 @@ MonitorOptions takeMonitorOptions(OptionMap& values) {
 }
 
 MonitorSettings::MonitorSettings(const MonitorOptions& options) : MonitorOptions(options) {
+  estimators.drifting_offset = preset != "paper";
   if (preset != "paper") return;
-  estimators.rule = IntegrationRule::kTrapezoid;  // Eq. (9)
-  estimators.drifting_offset = false;
-  estimators.forgets_unexcited = true;
-  RecursiveOptions& recursive = estimators.recursive;
-  recursive.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
-  recursive.initial_variance_rule = InitialVariance::kAbsolute;
-  recursive.start_rows = 150;  // k0, and eps_min: section 3.2
-  recursive.small_divisor_rule = SmallDivisor::kAbsolute;
-  recursive.small_divisor = 1e-8;
-  recursive.scale_covariance_at_start = false;
+  integration_rule = IntegrationRule::kTrapezoid;  // Eq. (9)
+  forgets_unexcited = true;
+  estimators.initial_variance = 1e5;  // P(0) = diag(1e5, 1e5)
+  estimators.initial_variance_rule = InitialVariance::kAbsolute;
+  estimators.start_rows = 150;  // k0, and eps_min: section 3.2
+  estimators.small_divisor_rule = SmallDivisor::kAbsolute;
+  estimators.small_divisor = 1e-8;
+  estimators.scale_covariance_at_start = false;
 }
 
 void MonitorSettings::validate() const {
   suspension_health_monitor::validate<MonitorOptions>(*this, kMonitorFields);
-  health().validate();
+  requireConsistent(*this);
   if (!sample_period) return;
   filter(*sample_period);
   if (forgettingFactor(*sample_period) < 1.0 - 1.0 / kFewestSamplesOfMemory - kRounding)
@@ -67,7 +66,7 @@ int MonitorSettings::horizonSamples(double period) const {
 }
 
 IntegralFilterOptions MonitorSettings::filter(double period) const {
-  const IntegralFilterOptions filter{horizonSamples(period), period, estimators.rule};
+  const IntegralFilterOptions filter{horizonSamples(period), period, integration_rule};
   prefixed("integration_horizon = " + numberText(presentHorizon()) + " [s] with sample_period = " + numberText(period) +
                " [s] makes ",
            [&] { HorizonIntegral(filter.horizon_samples, filter.period, filter.rule); });
@@ -78,7 +77,7 @@ IntegralFilterOptions MonitorSettings::tyreFilter(double period) const {
   constexpr double kShare = 1.0 / 8.0;
   constexpr int kFewestSamples = 5;
   const auto samples = static_cast<int>(std::lround(kShare * horizonSamples(period)));
-  return {std::max(kFewestSamples, samples), period, estimators.rule};
+  return {std::max(kFewestSamples, samples), period, integration_rule};
 }
 
 GridOptions MonitorSettings::grid(double period) const {
@@ -86,7 +85,7 @@ GridOptions MonitorSettings::grid(double period) const {
 }
 
 RecursiveOptions MonitorSettings::recursive(int correlated_rows) const {
-  RecursiveOptions recursive = estimators.recursive;
+  RecursiveOptions recursive = estimators;
   recursive.forgetting_factor = forgettingFactor(*sample_period);
   recursive.correlated_rows = correlated_rows;
   return recursive;
@@ -104,8 +103,8 @@ double MonitorSettings::presentBlockLength() const {
 }
 
 double MonitorSettings::presentMemory() const {
-  constexpr double kMemory = 2.0, kHorizons = 10.0 / 3.0;  // the same for the default horizon
-  return memory.value_or(std::max(kMemory, kHorizons * presentHorizon()));
+  constexpr double kLeast = 2.0, kHorizons = 10.0 / 3.0;  // the same for the default horizon
+  return memory.value_or(std::max(kLeast, kHorizons * presentHorizon()));
 }
 
 double MonitorSettings::fewestRows(double horizons, double period) const {

@@ -14,11 +14,9 @@ namespace {
 // again from LS.
 constexpr double kMostLost = 10.0;  // memories
 
-RecursiveOptions recursiveOf(const MonitorSettings& options, int horizon_samples) {
-  RecursiveOptions recursive = options.recursive(2 * horizon_samples);
-  recursive.drifting_offset = options.estimators.drifting_offset;
-  return recursive;
-}
+// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or
+// 2 %.
+constexpr double kFewestHorizons = 5.0 / 3.0;
 
 // @param num_model  columns of the strut and of its effects, before those of the sensors.
 template <class Estimator>
@@ -47,26 +45,30 @@ void writeParameters(const Estimator& estimator, int num_model, StrutEstimate& e
 }  // namespace
 
 StrutIdentifier::StrutIdentifier(const MonitorSettings& options)
-    : filter_(options.filter(*options.sample_period)),
+    : StrutIdentifier(options, options.filter(*options.sample_period), 0) {}
+
+StrutIdentifier StrutIdentifier::ofWheel(MonitorSettings options) {
+  options.estimators.drifting_offset = false;
+  return {options, options.tyreFilter(*options.sample_period), 1};
+}
+
+StrutIdentifier::StrutIdentifier(const MonitorSettings& options, const IntegralFilterOptions& filter,
+                                 int num_accelerations)
+    : filter_(filter),
       offset_columns_(options.estimators.drifting_offset ? 2 : 0),
-      forgets_unexcited_(options.estimators.forgets_unexcited),
-      regression_(filter_, 0, options.estimators.drifting_offset),
-      least_squares_(kNumStrutParameters + offset_columns_, recursiveOf(options, filter_.horizon_samples)),
-      least_absolute_(kNumStrutParameters + offset_columns_, recursiveOf(options, filter_.horizon_samples)),
-      silent_rows_(filter_.horizon_samples),
-      rows_(std::numeric_limits<double>::infinity()) {  // the plain columns are there from the first row on
+      forgets_unexcited_(options.forgets_unexcited),
+      regression_(filter_, num_accelerations, offset_columns_ > 0, 0),
+      least_squares_(kNumStrutParameters + num_accelerations + offset_columns_,
+                     options.recursive(2 * filter.horizon_samples)),
+      least_absolute_(least_squares_.numParameters(), options.recursive(2 * filter.horizon_samples)),
+      rows_(std::numeric_limits<double>::infinity()) {  // these columns are there from the first row on
   setForgetting(options);
 }
 
-void StrutIdentifier::changeEffects(const std::vector<ColumnOrigin>& effects) {
-  std::vector<ColumnOrigin> columns{{kDampingToMass, 0.0}, {kStiffnessToMass, 0.0}};
-  for (ColumnOrigin effect : effects) {
-    if (effect.before) *effect.before += kNumStrutParameters;
-    columns.push_back(effect);
-  }
+void StrutIdentifier::changeModel(std::vector<ColumnOrigin> columns) {
+  regression_ = SuspensionRegression(filter_, columns.size() - kNumStrutParameters, offset_columns_ > 0);
   for (int j = 0; j < offset_columns_; ++j) columns.push_back({numModelColumns() + j, 0.0});
-  forEach([&](RecursiveEstimator& estimator) { estimator.changeColumns(columns); });
-  regression_ = SuspensionRegression(filter_, effects.size(), offset_columns_ > 0);
+  forEach([&](RecursiveLeastSquares& estimator) { estimator.changeColumns(columns); });
   has_row_ = false;
   rows_ = 0.0;
 }
@@ -75,12 +77,12 @@ void StrutIdentifier::add(const CornerSample& sample, const double* effect_force
   const RegressionRow* row = regression_.push(sample, effect_forces);
   has_row_ = row != nullptr;
   if (!has_row_) return;
-  silent_rows_.add(row->output);
+  silent_rows_ = row->output == 0.0 ? std::min(silent_rows_ + 1, filter_.horizon_samples) : 0;
   // Rows that LA hits exactly would weigh so much that it could not leave them for minutes.
-  if (!silent_rows_.moves()) return;
+  if (!moves()) return;
   rows_ += 1.0;
   if (!holds_) return update(*row);
-  forEach([&](RecursiveEstimator& estimator) { estimator.observe(*row); });
+  forEach([&](RecursiveLeastSquares& estimator) { estimator.observe(*row); });
 }
 
 void StrutIdentifier::update(const RegressionRow& row) {
@@ -107,13 +109,13 @@ EstimateFacts StrutIdentifier::facts(const StrutEstimate& estimate, const Estima
 
 void StrutIdentifier::startNewSeries() {
   regression_.reset();
-  forEach([](RecursiveEstimator& estimator) { estimator.interrupt(); });
+  forEach([](RecursiveLeastSquares& estimator) { estimator.interrupt(); });
   has_row_ = false;
 }
 
 void StrutIdentifier::setForgetting(const MonitorSettings& options) {
   const double factor = options.forgettingFactor(filter_.period);
-  forEach([&](RecursiveEstimator& estimator) { estimator.setForgettingFactor(factor); });
+  forEach([&](RecursiveLeastSquares& estimator) { estimator.setForgettingFactor(factor); });
   fewest_rows_ = options.fewestRows(kFewestHorizons, filter_.period);
 }
 

@@ -29,7 +29,7 @@ SuspensionMonitor::SuspensionMonitor(const MonitorSettings& options, bool has_ow
       period_(fromSeconds(*options.sample_period)),
       spacing_(1.0 - 0.1 / FirstReadings::kSpacings),
       plain_(options, has_own_blocks),
-      health_(options.health()),
+      health_(options),
       sensors_(std::max(options.comparison_window / *options.sample_period, kHorizonsOfSensorCheck * horizon_samples_),
                horizon_samples_) {}
 
@@ -59,7 +59,7 @@ void SuspensionMonitor::setEffects(const std::vector<ActiveEffect>& effects, con
 
 void SuspensionMonitor::reconfigure(const MonitorSettings& options) {
   options_ = checked(options);
-  health_.setOptions(options.health());
+  health_.setOptions(options);
   has_new_estimate_ = true;  // the newest estimate is judged by them at once
   changeModels([&](ModelTracker& model, ModelReport&) { model.setOptions(options); });
 }

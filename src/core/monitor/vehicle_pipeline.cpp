@@ -4,16 +4,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "suspension_health_monitor/internal/base/text.h"
+
 namespace suspension_health_monitor {
 
 namespace {
-
-std::vector<bool> requiredOf(const VehicleStreams& streams) {
-  std::vector<bool> required;
-  for (const VehicleStreams::Sensor& sensor : streams.sensors)
-    required.push_back(streams.options[sensor.stream].required);
-  return required;
-}
 
 VehiclePipeline::Sinks sinksOf(std::function<void(const MonitorReport&)> report) {
   if (!report) return {};
@@ -27,7 +22,7 @@ VehiclePipeline::VehiclePipeline(const std::vector<MonitorSettings>& settings, c
     : streams_(streams),
       sinks_(std::move(sinks)),
       monitor_(settings, sinks_.report, static_cast<int>(streams.channels.known_forces.size())),
-      first_readings_(requiredOf(streams)) {
+      first_readings_(mapped(streams.sensors, [&](const auto& its) { return streams.options[its.stream].required; })) {
   if (settings.front().sample_period) start();
 }
 

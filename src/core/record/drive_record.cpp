@@ -1,10 +1,10 @@
 #include "suspension_health_monitor/internal/record/drive_record.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
@@ -15,72 +15,53 @@ namespace {
 constexpr int kStuckRepeats = 4;  // a value that is read so many times again is a stuck one
 constexpr std::size_t kShortestSegment = 32;
 
-/// One number of every message, as a function of time.
-class Channel {
- public:
-  Channel(const std::vector<BodyMotion>& motion, std::array<double, 2> BodyMotion::*member, std::size_t axis)
-      : motion_(motion) {
-    for (const BodyMotion& m : motion) values_.push_back((m.*member)[axis]);
-  }
-
-  double operator()(Stamp stamp) const {
-    const auto after = std::lower_bound(motion_.begin(), motion_.end(), stamp,
-                                        [](const BodyMotion& m, Stamp s) { return m.stamp < s; });
-    const auto i = static_cast<std::size_t>(after - motion_.begin());
-    if (i == 0) return values_.front();
-    if (after == motion_.end()) return values_.back();
-    const double share = toSeconds(stamp - motion_[i - 1].stamp) / toSeconds(motion_[i].stamp - motion_[i - 1].stamp);
-    return (1.0 - share) * values_[i - 1] + share * values_[i];
-  }
-
-  /// @return false where it is not measured, or does not change.
-  bool tells() const {
-    const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
-    return std::all_of(values_.begin(), values_.end(), isUsable) &&
-           *most - *least > kRounding * std::max(std::abs(*least), std::abs(*most));
-  }
-
-  double mean() const {
-    return std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
-  }
-
- private:
-  const std::vector<BodyMotion>& motion_;
-  std::vector<double> values_;
-};
-
-void addAcceleration(const Channel& channel, std::size_t axis, std::vector<DriveSegment>& segments) {
-  const double mean = channel.mean();
-  for (DriveSegment& segment : segments)
-    for (const Stamp stamp : segment.stamps) segment.body[axis].push_back(channel(stamp) - mean);
+/// @param values  of a channel, one per message.
+/// @return the channel at an instant.
+double valueAt(Stamp stamp, const std::vector<BodyMotion>& motion, const std::vector<double>& values) {
+  const auto after =
+      std::lower_bound(motion.begin(), motion.end(), stamp, [](const BodyMotion& m, Stamp s) { return m.stamp < s; });
+  const auto i = static_cast<std::size_t>(after - motion.begin());
+  if (i == 0) return values.front();
+  if (after == motion.end()) return values.back();
+  const double share = toSeconds(stamp - motion[i - 1].stamp) / toSeconds(motion[i].stamp - motion[i - 1].stamp);
+  return (1.0 - share) * values[i - 1] + share * values[i];
 }
 
-void addAngularAcceleration(const Channel& rate, std::size_t axis, std::vector<DriveSegment>& segments) {
+/// @return false where a channel is not measured, or does not change.
+bool tells(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return std::all_of(values.begin(), values.end(), isUsable) &&
+         *most - *least > kRounding * std::max(std::abs(*least), std::abs(*most));
+}
+
+void addAcceleration(const std::vector<BodyMotion>& motion, std::size_t axis, std::vector<DriveSegment>& segments) {
+  const auto values = mapped(motion, [axis](const BodyMotion& m) { return m.acceleration[axis]; });
+  if (!tells(values)) return;
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  for (DriveSegment& segment : segments)
+    for (const Stamp stamp : segment.stamps) segment.body[axis].push_back(valueAt(stamp, motion, values) - mean);
+}
+
+void addAngularAcceleration(const std::vector<BodyMotion>& motion, std::size_t axis,
+                            std::vector<DriveSegment>& segments) {
+  const auto rates = mapped(motion, [axis](const BodyMotion& m) { return m.angular_rate[axis]; });
+  if (!tells(rates)) return;
   const double period = segments.front().period;
-  const int margin = SlopeFilter::kWidest;
+  const int margin = kWidestSlope;
   std::vector<std::vector<double>> series;  // with a margin on both sides, where messages are, too
   for (const DriveSegment& segment : segments) {
     series.emplace_back();
-    const auto aside = [&](Stamp stamp, int k) { series.back().push_back(rate(stamp + k * fromSeconds(period))); };
+    const auto aside = [&](Stamp stamp, int k) {
+      series.back().push_back(valueAt(stamp + k * fromSeconds(period), motion, rates));
+    };
     for (int k = -margin; k < 0; ++k) aside(segment.stamps.front(), k);
     for (const Stamp stamp : segment.stamps) aside(stamp, 0);
     for (int k = 1; k <= margin; ++k) aside(segment.stamps.back(), k);
   }
-  const SlopeFilter slope = SlopeFilter::fitting(series, period);
+  const Eigen::VectorXd weights = fittingSlope(series, period);
   for (std::size_t s = 0; s < segments.size(); ++s)
     for (std::size_t k = 0; k < segments[s].size(); ++k)
-      segments[s].body[2 + axis].push_back(slope(&series[s][k + margin]));
-}
-
-/// Puts the body's motion beside the samples of a drive's segments, as DriveRecord says.
-/// @param motion  in the order of the stamps, by the clock of the samples; may be empty.
-void addBodyChannels(const std::vector<BodyMotion>& motion, std::vector<DriveSegment>& segments) {
-  if (motion.empty() || segments.empty()) return;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const Channel acceleration(motion, &BodyMotion::acceleration, axis), rate(motion, &BodyMotion::angular_rate, axis);
-    if (acceleration.tells()) addAcceleration(acceleration, axis, segments);
-    if (rate.tells()) addAngularAcceleration(rate, axis, segments);
-  }
+      segments[s].body[2 + axis].push_back(weightedSlope(&series[s][k + margin], weights));
 }
 
 /// The samples of an uninterrupted part of a drive, by their places in it.
@@ -114,6 +95,40 @@ std::vector<Stretch> stretchesOf(const Drive& drive, double period) {
   return stretches;
 }
 
+/// @param mean  of w''.
+/// @return nothing of a stretch that is too short.
+std::optional<DriveSegment> segmentOf(const Drive& drive, const Stretch& stretch, double mean, double period,
+                                      int steps) {
+  const LowPass& filter = drive.low_pass;
+  const std::size_t end = kInterpolationReach;
+  const std::size_t lead = filter.taps.size() / 2;
+  if (stretch.size() < 2 * (end + lead) + kShortestSegment) return std::nullopt;
+  std::vector<double> driving;
+  for (const std::size_t k : stretch)
+    driving.push_back((filter.taps.empty() ? drive.samples[k].unsprung_acceleration : filter.unfiltered[k]) - mean);
+
+  DriveSegment segment;
+  const std::size_t first = end + lead, last = driving.size() - 1 - end;
+  segment.start = toSeconds(drive.samples[stretch.front()].stamp - drive.samples.front().stamp) +
+                  static_cast<double>(first) * period;
+  segment.period = period;
+  segment.steps = steps;
+  segment.taps = filter.taps;
+  for (std::size_t i = first; i <= last - lead; ++i) {
+    const CornerSample& sample = drive.samples[stretch[i]];
+    segment.sprung.push_back(sample.sprung_acceleration - mean);
+    segment.body[static_cast<std::size_t>(BodyChannel::kGravity)].push_back(mean);
+    segment.stamps.push_back(sample.stamp);
+    segment.unsprung.push_back(sample.unsprung_acceleration - mean);
+    segment.driving.push_back(driving[i]);
+  }
+  const std::vector<WheelInterpolator> interpolators = WheelInterpolator::ofSample(steps, period);
+  for (std::size_t k = end; k < last; ++k)
+    for (const WheelInterpolator& interpolate : interpolators)
+      segment.wheel.push_back(interpolate(&driving[k + 1 - end]));
+  return segment;
+}
+
 bool isKnown(const Records& records, BodyChannel channel) {
   const Segments segments = segmentsOf(records);
   return std::none_of(segments.begin(), segments.end(), [&](const DriveSegment* segment) {
@@ -124,7 +139,7 @@ bool isKnown(const Records& records, BodyChannel channel) {
 }  // namespace
 
 DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double driven_before)
-    : period_(period), steps_(steps), noise_(drive.noise) {
+    : period_(period), noise_(drive.noise) {
   const std::vector<Stretch> stretches = stretchesOf(drive, period);
   double sum = 0.0, count = 0.0;
   for (const Stretch& stretch : stretches) {
@@ -132,41 +147,16 @@ DriveRecord::DriveRecord(const Drive& drive, double period, int steps, double dr
     count += static_cast<double>(stretch.size());
   }
   mean_wheel_ = count > 0.0 ? sum / count : 0.0;
-  for (const Stretch& stretch : stretches) addSegment(drive, stretch);
-  for (DriveSegment& segment : segments_) segment.driven_before = driven_before;
-  addBodyChannels(drive.body, segments_);
-}
-
-void DriveRecord::addSegment(const Drive& drive, const std::vector<std::size_t>& stretch) {
-  const LowPass& filter = drive.low_pass;
-  const std::size_t end = BandlimitedInterpolator::kHalfWidth;
-  const std::size_t lead = filter.taps.size() / 2;
-  if (stretch.size() < 2 * (end + lead) + kShortestSegment) return;
-  std::vector<double> driving;
-  for (const std::size_t k : stretch)
-    driving.push_back((filter.taps.empty() ? drive.samples[k].unsprung_acceleration : filter.unfiltered[k]) -
-                      mean_wheel_);
-
-  DriveSegment segment;
-  const std::size_t first = end + lead, last = driving.size() - 1 - end;
-  segment.start = toSeconds(drive.samples[stretch.front()].stamp - drive.samples.front().stamp) +
-                  static_cast<double>(first) * period_;
-  segment.period = period_;
-  segment.steps = steps_;
-  segment.taps = filter.taps;
-  for (std::size_t i = first; i <= last - lead; ++i) {
-    const CornerSample& sample = drive.samples[stretch[i]];
-    segment.sprung.push_back(sample.sprung_acceleration - mean_wheel_);
-    segment.body[static_cast<std::size_t>(BodyChannel::kGravity)].push_back(mean_wheel_);
-    segment.stamps.push_back(sample.stamp);
-    segment.unsprung.push_back(sample.unsprung_acceleration - mean_wheel_);
-    segment.driving.push_back(driving[i]);
+  for (const Stretch& stretch : stretches)
+    if (std::optional<DriveSegment> segment = segmentOf(drive, stretch, mean_wheel_, period, steps)) {
+      segment->driven_before = driven_before;
+      segments_.push_back(*std::move(segment));
+    }
+  if (drive.body.empty() || segments_.empty()) return;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    addAcceleration(drive.body, axis, segments_);
+    addAngularAcceleration(drive.body, axis, segments_);
   }
-  const std::vector<WheelInterpolator> interpolators = WheelInterpolator::ofSample(steps_, period_);
-  for (std::size_t k = end; k < last; ++k)
-    for (const WheelInterpolator& interpolate : interpolators)
-      segment.wheel.push_back(interpolate(&driving[k + 1 - end]));
-  segments_.push_back(std::move(segment));
 }
 
 std::size_t DriveRecord::numSamples() const {
@@ -186,12 +176,6 @@ double restBetween(const DriveSegment& before, const DriveSegment& after) {
   return toSeconds(after.stamps.front() - before.stamps.back());
 }
 
-std::vector<std::vector<double>> seriesOf(const Segments& segments, std::vector<double> DriveSegment::*series) {
-  std::vector<std::vector<double>> all;
-  for (const DriveSegment* segment : segments) all.push_back(segment->*series);
-  return all;
-}
-
 std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double period, const StrutModel& model) {
   const double exact = stepsPerSample(model.damping_to_mass, model.stiffness_to_mass, period);
   const int steps = std::max(1, static_cast<int>(std::ceil(exact)));
@@ -205,9 +189,7 @@ std::deque<DriveRecord> makeRecords(const std::vector<Drive>& drives, double per
 }
 
 Records pointersTo(const std::deque<DriveRecord>& records) {
-  Records pointers;
-  for (const DriveRecord& record : records) pointers.push_back(&record);
-  return pointers;
+  return mapped(records, [](const DriveRecord& record) { return &record; });
 }
 
 std::vector<std::pair<std::string, BodyChannel>> takeUntestable(EffectLibrary& library, const Records& records) {
@@ -215,13 +197,8 @@ std::vector<std::pair<std::string, BodyChannel>> takeUntestable(EffectLibrary& l
     return effect.channels.empty() || std::any_of(effect.channels.begin(), effect.channels.end(),
                                                   [&](BodyChannel channel) { return isKnown(records, channel); });
   };
-  std::vector<MeasurementEffect>& readings = library.readings;
-  const auto first = std::stable_partition(readings.begin(), readings.end(), isTestable);
-  std::vector<std::pair<std::string, BodyChannel>> untestable;
-  for (auto effect = first; effect != readings.end(); ++effect)
-    untestable.emplace_back(effect->name, effect->channels.front());
-  readings.erase(first, readings.end());
-  return untestable;
+  return mapped(takeUnless(library.readings, isTestable),
+                [](const MeasurementEffect& effect) { return std::pair(effect.name, effect.channels.front()); });
 }
 
 std::optional<std::pair<std::string, BodyChannel>> findUntestable(const StrutModel& model, const Records& records) {

@@ -55,8 +55,7 @@ bool isFrequencyResponse(const ForceEffect& effect) {
 
 std::optional<MotionRange> rangeOfMotion(const Records& records) {
   const Segments segments = segmentsOf(records);
-  std::vector<std::size_t> sizes;
-  for (const DriveSegment* segment : segments) sizes.push_back(segment->size());
+  const std::vector<std::size_t> sizes = mapped(segments, &DriveSegment::size);
   const std::size_t longest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
   if (longest < kShortestPart) return std::nullopt;
   std::size_t length = kShortestPart;
@@ -79,11 +78,8 @@ std::optional<MotionRange> rangeOfMotion(const Records& records) {
 }
 
 std::vector<std::string> takeFrequencyResponses(EffectLibrary& library) {
-  std::vector<ForceEffect>& forces = library.forces;
-  const auto first = std::stable_partition(forces.begin(), forces.end(), std::not_fn(isFrequencyResponse));
-  std::vector<std::string> names = namesOf(std::vector<ForceEffect>(first, forces.end()));
+  std::vector<std::string> names = namesOf(takeUnless(library.forces, std::not_fn(isFrequencyResponse)));
   for (const MeasurementEffect& effect : library.readings) names.push_back(effect.name);
-  forces.erase(first, forces.end());
   library.readings.clear();
   return names;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "separating_drive.h"
+#include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/fit/noise_floor.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 
@@ -133,7 +134,7 @@ class Conclusion {
   /// @return the noise floor of what a model leaves, see floorOfResidual().
   double floorOf(const EvaluatedModel& after, double floor) const {
     return floorOfResidual(after.ranked.held_out_rmse, floor, after.fit.residuals,
-                           seriesOf(segmentsOf(records_), &DriveSegment::unsprung), records_.front()->period(),
+                           mapped(segmentsOf(records_), &DriveSegment::unsprung), records_.front()->period(),
                            after.ranked.model)
         .rms;
   }

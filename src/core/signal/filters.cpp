@@ -5,6 +5,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
@@ -36,34 +37,6 @@ Eigen::LDLT<Eigen::MatrixXd> factoredGram(Eigen::Index n) {
   }
   return gram.ldlt();
 }
-
-}  // namespace
-
-BandlimitedInterpolator::BandlimitedInterpolator(double fraction) : weights_(2 * kHalfWidth) {
-  constexpr Eigen::Index n = 2 * kHalfWidth;
-  static const Eigen::LDLT<Eigen::MatrixXd> gram = factoredGram(n);
-  Eigen::VectorXd target(n);
-  const double wanted = kHalfWidth - 1 + fraction;
-  for (Eigen::Index i = 0; i < n; ++i) target[i] = bandMean(static_cast<double>(i) - wanted);
-  const Eigen::VectorXd solution = gram.solve(target);
-  // A constant, gravity say, comes out exactly.
-  for (Eigen::Index i = 0; i < n; ++i) weights_[i] = solution[i] / solution.sum();
-}
-
-BandlimitedInterpolator BandlimitedInterpolator::integral(double from, double to, int power) {
-  using Gauss = boost::math::quadrature::gauss<double, 10>;
-  std::vector<double> weights(2 * kHalfWidth, 0.0);
-  for (std::size_t n = 0; n < Gauss::abscissa().size(); ++n)
-    for (const double side : {-1.0, 1.0}) {
-      const double position = from + (to - from) * (1.0 + side * Gauss::abscissa()[n]) / 2.0;
-      const BandlimitedInterpolator node(position);
-      for (std::size_t i = 0; i < weights.size(); ++i)
-        weights[i] += (to - from) / 2.0 * Gauss::weights()[n] * std::pow(to - position, power) * node.weights_[i];
-    }
-  return BandlimitedInterpolator(weights);
-}
-
-namespace {
 
 constexpr int kFrequencies = 2000;  // at which the errors are summed: many more than the taps can tell apart
 
@@ -106,13 +79,57 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> makePair(int delay, double flat, dou
   return {value, rate};
 }
 
+constexpr double kNoiseShare = 1e-3;  // of the slope's mean square
+
+/// Robust standard deviation of white noise, from the fourth differences: those of white noise have 70 times its
+/// variance.
+double noiseOf(const std::vector<std::vector<double>>& series) {
+  std::vector<double> differences;
+  for (const std::vector<double>& x : series)
+    for (std::size_t k = 2; k + 2 < x.size(); ++k)
+      differences.push_back(x[k - 2] - 4 * x[k - 1] + 6 * x[k] - 4 * x[k + 1] + x[k + 2]);
+  return robustDeviation(std::move(differences)) / std::sqrt(70.0);
+}
+
+double meanSquareSlope(const std::vector<std::vector<double>>& series, const Eigen::VectorXd& weights) {
+  const std::size_t margin = kWidestSlope;
+  double sum = 0.0, count = 0.0;
+  for (const std::vector<double>& x : series)
+    for (std::size_t k = margin; k + margin < x.size(); ++k, ++count) sum += square(weightedSlope(&x[k], weights));
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 }  // namespace
+
+std::vector<double> interpolationWeights(double fraction) {
+  constexpr Eigen::Index n = 2 * kInterpolationReach;
+  static const Eigen::LDLT<Eigen::MatrixXd> gram = factoredGram(n);
+  Eigen::VectorXd target(n);
+  const double wanted = kInterpolationReach - 1 + fraction;
+  for (Eigen::Index i = 0; i < n; ++i) target[i] = bandMean(static_cast<double>(i) - wanted);
+  Eigen::VectorXd solution = gram.solve(target);
+  solution /= solution.sum();  // a constant, gravity say, comes out exactly
+  return {solution.data(), solution.data() + n};
+}
+
+std::vector<double> integrationWeights(double from, double to, int power) {
+  using Gauss = boost::math::quadrature::gauss<double, 10>;
+  std::vector<double> weights(2 * kInterpolationReach, 0.0);
+  for (std::size_t n = 0; n < Gauss::abscissa().size(); ++n)
+    for (const double side : {-1.0, 1.0}) {
+      const double position = from + (to - from) * (1.0 + side * Gauss::abscissa()[n]) / 2.0;
+      const std::vector<double> at_node = interpolationWeights(position);
+      for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] += (to - from) / 2.0 * Gauss::weights()[n] * std::pow(to - position, power) * at_node[i];
+    }
+  return weights;
+}
 
 MotionFilter::MotionFilter(Stamp period, std::size_t filtered, std::size_t differentiated)
     : period_(period),
       flat_(std::min(kSignalTuning.body_band, kSignalTuning.widest_flat / toSeconds(period))),
-      delay_(static_cast<int>(std::ceil(
-          BandlimitedInterpolator::kHalfWidth * kSignalTuning.widest_flat / (flat_ * toSeconds(period)) - 1e-9))),
+      delay_(static_cast<int>(
+          std::ceil(kInterpolationReach * kSignalTuning.widest_flat / (flat_ * toSeconds(period)) - 1e-9))),
       instant_{{}, std::vector<double>(filtered), std::vector<double>(differentiated), std::vector<double>(filtered)},
       history_(filtered + differentiated, DelayLine(2 * delay_ + 1)),
       stamps_(2 * delay_ + 1) {
@@ -142,49 +159,26 @@ const MotionFilter::Instant* MotionFilter::push(Stamp stamp, const std::vector<d
   instant_.stamp = stamps_[delay_];
   return &instant_;
 }
-namespace {
 
-constexpr double kNoiseShare = 1e-3;  // of the slope's mean square
-
-/// Robust standard deviation of white noise, from the fourth differences: those of white noise have 70 times its
-/// variance.
-double noiseOf(const std::vector<std::vector<double>>& series) {
-  std::vector<double> differences;
-  for (const std::vector<double>& x : series)
-    for (std::size_t k = 2; k + 2 < x.size(); ++k)
-      differences.push_back(x[k - 2] - 4 * x[k - 1] + 6 * x[k] - 4 * x[k + 1] + x[k + 2]);
-  return robustDeviation(std::move(differences)) / std::sqrt(70.0);
-}
-
-double meanSquare(const SlopeFilter& slope, const std::vector<std::vector<double>>& series) {
-  const std::size_t margin = SlopeFilter::kWidest;
-  double sum = 0.0, count = 0.0;
-  for (const std::vector<double>& x : series)
-    for (std::size_t k = margin; k + margin < x.size(); ++k, ++count) sum += square(slope(&x[k]));
-  return count > 0.0 ? sum / count : 0.0;
-}
-
-}  // namespace
-
-SlopeFilter::SlopeFilter(int half_width, double period) {
+Eigen::VectorXd slopeWeights(int half_width, double period) {
   // Normal equations of x = a t + b t^3; even powers do not touch the slope in the middle.
   const Eigen::ArrayXd k = Eigen::ArrayXd::LinSpaced(half_width, 1.0, half_width);
   const double s2 = 2.0 * k.square().sum(), s4 = 2.0 * k.pow(4.0).sum(), s6 = 2.0 * k.pow(6.0).sum();
-  weights_ = (s6 * k - s4 * k.cube()) / ((s2 * s6 - s4 * s4) * period);
+  return (s6 * k - s4 * k.cube()) / ((s2 * s6 - s4 * s4) * period);
 }
 
-SlopeFilter SlopeFilter::fitting(const std::vector<std::vector<double>>& series, double period) {
+Eigen::VectorXd fittingSlope(const std::vector<std::vector<double>>& series, double period) {
   const double noise = noiseOf(series);
   for (const int half_width : {2, 4, 8}) {
-    const SlopeFilter slope(half_width, period);
-    if (square(noise * slope.noiseGain()) <= kNoiseShare * meanSquare(slope, series)) return slope;
+    const Eigen::VectorXd weights = slopeWeights(half_width, period);
+    if (square(noise * noiseOfSlope(weights)) <= kNoiseShare * meanSquareSlope(series, weights)) return weights;
   }
-  return {kWidest, period};
+  return slopeWeights(kWidestSlope, period);
 }
 
-double SlopeFilter::operator()(const double* middle) const {
+double weightedSlope(const double* middle, const Eigen::VectorXd& weights) {
   double sum = 0.0;
-  for (int k = 1; k <= halfWidth(); ++k) sum += weights_[k - 1] * (middle[k] - middle[-k]);
+  for (Eigen::Index k = 1; k <= weights.size(); ++k) sum += weights[k - 1] * (middle[k] - middle[-k]);
   return sum;
 }
 

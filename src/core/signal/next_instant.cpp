@@ -21,8 +21,8 @@ bool StreamGrid::pairNext() {
 bool StreamGrid::dropTooOld() {
   const Stamp stamp = reference().waiting.front().stamp;
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    GridStream& stream = streams_[i];
-    if (!stream.options.required || 2 * (stamp - stream.waiting.front().stamp) <= period_) continue;
+    Stream& stream = streams_[i];
+    if (!stream.required || 2 * (stamp - stream.waiting.front().stamp) <= period_) continue;
     stream.drop();
     ++reference().missed;
     if (judge_) judge_->addLone(i);
@@ -34,13 +34,13 @@ bool StreamGrid::dropTooOld() {
 // Nothing that waits is too old. @return true if the reference's reading was dropped, and with it its partners.
 bool StreamGrid::dropLoneReference() {
   const Stamp stamp = reference().waiting.front().stamp;
-  const auto isTooNew = [&](const GridStream& stream) {
-    return stream.options.required && 2 * (stream.waiting.front().stamp - stamp) > period_;
+  const auto isTooNew = [&](const Stream& stream) {
+    return stream.required && 2 * (stream.waiting.front().stamp - stamp) > period_;
   };
   if (std::none_of(streams_.begin(), streams_.end(), isTooNew)) return false;
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    GridStream& stream = streams_[i];
-    if (!stream.options.required || i == reference_) continue;
+    Stream& stream = streams_[i];
+    if (!stream.required || i == reference_) continue;
     if (isTooNew(stream)) {
       ++stream.missed;
       if (judge_) judge_->addLone(i);
@@ -56,8 +56,8 @@ bool StreamGrid::dropLoneReference() {
 // @return false: an optional stream's reading of this instant may still come.
 bool StreamGrid::optionalOnesAreReady() {
   const Stamp stamp = reference().waiting.front().stamp;
-  for (GridStream& stream : streams_) {
-    if (stream.options.required) continue;
+  for (Stream& stream : streams_) {
+    if (stream.required) continue;
     while (!stream.waiting.empty() && 2 * (stamp - stream.waiting.front().stamp) > period_) stream.drop();
     if (stream.waiting.empty() && mayStillCome(stream)) return false;
   }
@@ -68,14 +68,13 @@ void StreamGrid::takePaired() {
   instant_.stamp = reference().waiting.front().stamp;
   if (judge_) judge_->addInstant(instant_.stamp);
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    GridStream& stream = streams_[i];
+    Stream& stream = streams_[i];
     const bool has_reading =
-        stream.options.required ||
-        (!stream.waiting.empty() && 2 * (stream.waiting.front().stamp - instant_.stamp) <= period_);
+        stream.required || (!stream.waiting.empty() && 2 * (stream.waiting.front().stamp - instant_.stamp) <= period_);
     instant_.measured[i] = has_reading;
     if (!has_reading) continue;
     const SensorReading& reading = stream.waiting.front();
-    if (judge_ && stream.options.required && i != reference_) judge_->addPair(i, instant_.stamp, reading.stamp);
+    if (judge_ && stream.required && i != reference_) judge_->addPair(i, instant_.stamp, reading.stamp);
     instant_.values[i] = reading.value;
     stream.is_still = reading.still;
     stream.waiting.pop_front();
@@ -106,7 +105,7 @@ bool StreamGrid::beginSeries() {
   if (next_) return true;
   std::optional<Stamp> first;
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    if (!streams_[i].options.required) continue;
+    if (!streams_[i].required) continue;
     const std::optional<Stamp> earliest = resamplers_[i].earliest(streams_[i].waiting);
     if (!earliest) return false;
     first = first ? std::max(*first, *earliest) : *earliest;
@@ -121,7 +120,7 @@ bool StreamGrid::beginSeries() {
 Coverage StreamGrid::advance(Stamp t) {
   Coverage all = Coverage::kCovered;
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    if (!streams_[i].options.required) continue;
+    if (!streams_[i].required) continue;
     const Coverage coverage = resamplers_[i].advance(t, streams_[i].waiting);
     if (coverage == Coverage::kInterrupted) ++streams_[i].missed;
     if (coverage == Coverage::kInterrupted || all == Coverage::kCovered) all = coverage;
@@ -129,7 +128,7 @@ Coverage StreamGrid::advance(Stamp t) {
   }
   if (all != Coverage::kCovered) return all;
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    if (streams_[i].options.required) continue;
+    if (streams_[i].required) continue;
     const Coverage coverage = resamplers_[i].advance(t, streams_[i].waiting);
     if (coverage == Coverage::kComes && mayStillCome(streams_[i])) return Coverage::kComes;
     instant_.measured[i] = coverage == Coverage::kCovered;

@@ -2,12 +2,12 @@
 
 namespace suspension_health_monitor {
 void RangeEnd::add(double reading, const ReadingStatistics& all, double span) {
-  count(reading, std::max(kSignalTuning.fine * span, kSignalTuning.band_steps * all.finestStep()));
+  count(reading, std::max(kSignalTuning.fine * span, kSignalTuning.band_steps * all.finest_step));
   countFlatTops(reading, all);
   if (!in_flat_top_) return;
-  if (flat_tops_ <= 1 && all.equalInARow() >= kSignalTuning.stuck) return limit_.reset();
-  const bool far_out = std::abs(reading - all.mean()) > kSignalTuning.far_out * all.deviation();
-  const bool fine = all.finestStep() < kSignalTuning.fine * span;
+  if (flat_tops_ <= 1 && all.equal_in_a_row >= kSignalTuning.stuck) return limit_.reset();
+  const bool far_out = std::abs(reading - all.average.mean()) > kSignalTuning.far_out * all.distance.mean();
+  const bool fine = all.finest_step < kSignalTuning.fine * span;
   // A sensor that reads 0 is dead: no range ends there.
   if (all.areEnough() && fine && reading != 0.0 && at_ > near_ && (far_out || flat_tops_ >= kSignalTuning.flat_tops))
     limit_ = reading;
@@ -29,23 +29,24 @@ void RangeEnd::count(double reading, double band) {
 }
 
 void RangeEnd::countFlatTops(double reading, const ReadingStatistics& all) {
-  const double mean_run = 1.0 / std::max(1.0 - all.repeated(), 1e-6);
-  const bool flat = reading == extreme_ && all.equalInARow() + 0.5 > kSignalTuning.flat_top * mean_run;
+  const double mean_run = 1.0 / std::max(1.0 - all.repeated.mean(), 1e-6);
+  const bool flat = reading == extreme_ && all.equal_in_a_row + 0.5 > kSignalTuning.flat_top * mean_run;
   if (flat && !in_flat_top_) flat_tops_ = std::min(flat_tops_ + 1, kSignalTuning.flat_tops);
   in_flat_top_ = flat;
 }
 
 void ReadingStatistics::add(double reading, bool is_extreme) {
-  const double step = last_ ? std::abs(reading - *last_) : 0.0;
-  equal_in_a_row_ = last_ && step == 0.0 ? std::min(equal_in_a_row_ + 1, kSignalTuning.stuck) : 1;
-  if (step > 0.0) finest_step_ = finest_step_ > 0.0 ? std::min(finest_step_, step) : step;
-  last_ = reading;
-  mean_.add(reading);
-  deviation_.add(std::abs(reading - mean_.mean()));
-  if (!is_extreme) repeated_.add(step == 0.0 ? 1.0 : 0.0);
+  const double step = last ? std::abs(reading - *last) : 0.0;
+  equal_in_a_row = last && step == 0.0 ? std::min(equal_in_a_row + 1, kSignalTuning.stuck) : 1;
+  if (step > 0.0) finest_step = finest_step > 0.0 ? std::min(finest_step, step) : step;
+  last = reading;
+  average.add(reading);
+  distance.add(std::abs(reading - average.mean()));
+  if (!is_extreme) repeated.add(step == 0.0 ? 1.0 : 0.0);
 }
 
 StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
+  taken_.reset();
   if (!isUsable(acceleration)) return reject(RejectReason::kNotFinite);
   const std::optional<RejectReason> fault = faultOfStamp(stamp);
   if (fault) rejected_.add(*fault);
@@ -60,9 +61,9 @@ StreamGate::Verdict StreamGate::judge(Stamp stamp, double acceleration) {
     return reject(RejectReason::kAbsurd);
   }
   last_ = stamp;
-  taken_ = clock_.add(stamp, acceleration);
-  if (is_force_) return passes;
-  if (isClipped(acceleration)) return reject(RejectReason::kClipped);
+  const Stamp taken = clock_.add(stamp, acceleration);
+  if (!is_force_ && isClipped(acceleration)) return reject(RejectReason::kClipped);
+  taken_ = taken;
   return passes;
 }
 
@@ -98,7 +99,7 @@ bool StreamGate::isClipped(double acceleration) {
 
 double StreamGate::farthest() const {
   if (!upper_.extreme()) return 0.0;
-  return std::max(*upper_.extreme() - statistics_.mean(), statistics_.mean() - *lower_.extreme());
+  return std::max(*upper_.extreme() - statistics_.average.mean(), statistics_.average.mean() - *lower_.extreme());
 }
 
 StreamGate::Verdict StreamGate::reject(RejectReason reason) {

@@ -60,10 +60,9 @@ Stamp checked(double period) {
 }
 
 std::size_t referenceOf(const std::vector<StreamOptions>& streams) {
-  const auto reference =
-      std::find_if(streams.begin(), streams.end(), [](const StreamOptions& o) { return o.required; });
-  if (reference == streams.end()) throw std::invalid_argument("of the streams of a grid at least one must be required");
-  return static_cast<std::size_t>(reference - streams.begin());
+  const auto first = std::find_if(streams.begin(), streams.end(), [](const StreamOptions& o) { return o.required; });
+  if (first == streams.end()) throw std::invalid_argument("of the streams of a grid at least one must be required");
+  return static_cast<std::size_t>(first - streams.begin());
 }
 
 }  // namespace
@@ -85,17 +84,13 @@ StreamGrid::StreamGrid(double period, const std::vector<StreamOptions>& streams,
 }
 
 const GridInstant* StreamGrid::push(std::size_t stream, Stamp stamp, double value) {
-  GridStream& its = streams_[stream];
+  Stream& its = streams_[stream];
   const StreamGate::Verdict verdict = its.gate.judge(stamp, value);
-  if (verdict == StreamGate::Verdict::kRejected) {
-    taken_.reset();
-    return nullptr;
-  }
+  if (verdict == StreamGate::Verdict::kRejected) return nullptr;
   if (verdict == StreamGate::Verdict::kBeginsAnew) startNewSeries(stream);
   if (its.waiting.full()) dropOldest(its);
   its.is_silent = false;
-  taken_ = its.gate.taken();
-  its.waiting.push_back({stamp, *taken_, value, its.gate.isStill(), its.gate.clock().period()});
+  its.waiting.push_back({stamp, *its.gate.taken(), value, its.gate.isStill(), its.gate.clock().period()});
   return next();
 }
 
@@ -105,11 +100,11 @@ const GridInstant* StreamGrid::next() {
 }
 
 // Its readings have waited in vain for those of a sensor that is silent.
-void StreamGrid::dropOldest(GridStream& full) {
+void StreamGrid::dropOldest(Stream& full) {
   full.drop();
-  for (GridStream& each : streams_) {
+  for (Stream& each : streams_) {
     const bool is_silent = each.waiting.empty() || each.waiting.back().stamp < full.waiting.front().stamp;
-    if (each.options.required && is_silent) ++each.missed;
+    if (each.required && is_silent) ++each.missed;
   }
 }
 
@@ -128,43 +123,43 @@ void StreamGrid::startNewSeries(std::size_t first) {
 // @return true if a reading of every required stream waits.
 bool StreamGrid::areWaiting() const {
   return std::none_of(streams_.begin(), streams_.end(),
-                      [](const GridStream& stream) { return stream.options.required && stream.waiting.empty(); });
+                      [](const Stream& stream) { return stream.required && stream.waiting.empty(); });
 }
 
 // Whether an optional stream, none of whose readings has come, is to be waited for.
-bool StreamGrid::mayStillCome(GridStream& optional) const {
+bool StreamGrid::mayStillCome(Stream& optional) const {
   const ReadingQueue& waiting = streams_[reference_].waiting;
   const Stamp lag = waiting.empty() ? Stamp::zero() : waiting.back().stamp - waiting.front().stamp;
   if (waiting.full() || lag > kMostOptionalLag) optional.is_silent = true;
   return !optional.is_silent;
 }
 
-// Compares GridStream::is_still of the required ones that are no forces.
+// Compares Stream::is_still of the required ones that are no forces.
 // @return true if some sensors stand still while others move, which is then counted for those that are still.
 bool StreamGrid::rejectStuck() {
   std::fill(sensor_is_still_.begin(), sensor_is_still_.end(), true);
-  const auto isCompared = [](const GridStream& stream) { return stream.options.required && !stream.options.is_force; };
-  for (const GridStream& stream : streams_)
-    if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.options.sensor] = false;
+  const auto isCompared = [](const Stream& stream) { return stream.required && !stream.is_force; };
+  for (const Stream& stream : streams_)
+    if (isCompared(stream) && !stream.is_still) sensor_is_still_[stream.sensor] = false;
   bool stand_still = false, move = false;
-  for (const GridStream& stream : streams_)
-    if (isCompared(stream)) (sensor_is_still_[stream.options.sensor] ? stand_still : move) = true;
+  for (const Stream& stream : streams_)
+    if (isCompared(stream)) (sensor_is_still_[stream.sensor] ? stand_still : move) = true;
   if (!stand_still || !move) return false;
-  for (GridStream& stream : streams_)
-    if (isCompared(stream) && sensor_is_still_[stream.options.sensor]) stream.rejected.add(RejectReason::kStuck);
+  for (Stream& stream : streams_)
+    if (isCompared(stream) && sensor_is_still_[stream.sensor]) stream.rejected.add(RejectReason::kStuck);
   return true;
 }
 
 double StreamGrid::longestPeriod() const {
   double longest = 0.0;
-  for (const GridStream& each : streams_)
-    if (each.options.required) longest = std::max(longest, each.gate.clock().period());
+  for (const Stream& each : streams_)
+    if (each.required) longest = std::max(longest, each.gate.clock().period());
   return longest;
 }
 
 Stamp StreamGrid::settled() const {
   Stamp latest = Stamp::min();
-  for (const GridStream& each : streams_) latest = std::max(latest, each.gate.clock().settled());
+  for (const Stream& each : streams_) latest = std::max(latest, each.gate.clock().settled());
   return latest;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "suspension_health_monitor/internal/math/statistics.h"
-#include "suspension_health_monitor/internal/signal/grid_streams.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {
@@ -36,7 +36,10 @@ void SmoothingSpline::add(double position, double value) {
   const double knot = std::floor(position);
   const auto first = static_cast<std::int64_t>(knot) - 1;  // whose B-spline the position is in
   if (empty_) begin(first);
-  while (oldest_open_ < first) closeOldest();
+  while (oldest_open_ < first) {  // closes the oldest open coefficient, and opens the one after the newest
+    eliminateOldest(closed_[place(oldest_open_++)]);
+    penaliseNewest();
+  }
   const double u = position - knot, v = 1.0 - u;
   const std::array<double, 4> weights{v * v * v / 6.0, 2.0 / 3.0 - u * u * (1.0 - u / 2.0),
                                       2.0 / 3.0 - v * v * (1.0 - v / 2.0), u * u * u / 6.0};
@@ -44,12 +47,6 @@ void SmoothingSpline::add(double position, double value) {
     for (int j = 0; j <= i; ++j) matrix_[i][j] += weights[i] * weights[j];
     right_[i] += weights[i] * value;
   }
-}
-
-// Closes the oldest open coefficient, and opens the one after the newest.
-void SmoothingSpline::closeOldest() {
-  eliminateOldest(closed_[place(oldest_open_++)]);
-  penaliseNewest();
 }
 
 // From the equations of those after it, which move up.

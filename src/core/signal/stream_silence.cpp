@@ -11,7 +11,11 @@ StreamSilence::StreamSilence(const std::vector<std::string>& names, Stamp timeou
 void StreamSilence::add(std::size_t stream, Stamp stamp) {
   if (stamp <= Stamp::zero()) return;
   if (isSilent(stream)) was_silent_[stream] = true;
-  if (!newest_ || stamp > *newest_ + timeout_ || stamp < *newest_ - timeout_) begin(stamp);
+  if (!newest_ || stamp > *newest_ + timeout_ || stamp < *newest_ - timeout_) {
+    end();
+    std::fill(last_.begin(), last_.end(), stamp);
+    newest_ = stamp;
+  }
   if (sink_ && stamp - last_[stream] > timeout_) sink_({stream, last_[stream], stamp});
   last_[stream] = stamp;
   newest_ = std::max(*newest_, stamp);
@@ -28,12 +32,6 @@ void StreamSilence::end() {
     for (std::size_t i = 0; i < last_.size(); ++i)
       if (isSilent(i)) sink_({i, last_[i], *newest_});
   newest_.reset();
-}
-
-void StreamSilence::begin(Stamp stamp) {
-  end();
-  std::fill(last_.begin(), last_.end(), stamp);
-  newest_ = stamp;
 }
 
 Stamp StreamSilence::lasting(std::size_t stream) const {

@@ -1,46 +1,49 @@
 #include "suspension_health_monitor/internal/simulation/drive_simulator.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace suspension_health_monitor {
 
 DriveSimulator::DriveSimulator(const SimulationOptions& options)
-    : scenario_(makeScenario(options)),
-      sprung_{{options, Accelerometer::Place::kSprung}, {options.rate, 0.0, options, RandomPurpose::kSprungTiming}},
+    : options_(checked(options)),
+      sprung_{
+          {options, Accelerometer::Place::kSprung}, {options.seed, RandomPurpose::kSprungTiming}, options.rate, 0.0},
       unsprung_{{options, Accelerometer::Place::kUnsprung},
-                {options.unsprung_rate.value_or(options.rate), options.unsprung_phase, options,
-                 RandomPurpose::kUnsprungTiming}},
+                {options.seed, RandomPurpose::kUnsprungTiming},
+                options.unsprung_rate.value_or(options.rate),
+                options.unsprung_phase},
       road_(options, Accelerometer::Place::kRoad),
-      sway_(options),
-      sway_noise_{options.body_acceleration > 0.0 ? options.noise : 0.0,
-                  options.body_rate > 0.0 ? options.gyro_noise : 0.0},
+      sway_(swayOf(options)),
       sway_random_(options.seed, RandomPurpose::kSwayNoise),
       faults_(SimulatedFaults::from(options.hidden_faults)),
-      now_(scenario_.driven, {scenario_.road}, 1.0 / fasterRate(options)),
-      delayed_(now_) {}
+      now_(quarterCarOf(options), {roadOf(options)}, 1.0 / fasterRate(options)),
+      delayed_(now_) {
+  scheduleNext(sprung_);
+  scheduleNext(unsprung_);
+}
 
 std::optional<DriveSample> DriveSimulator::next() {
-  const std::optional<double> body_time = sprung_.schedule.next(), wheel_time = unsprung_.schedule.next();
-  if (!body_time && !wheel_time) return std::nullopt;
-  const bool body_reads = body_time && (!wheel_time || *body_time <= *wheel_time);
-  const bool wheel_reads = wheel_time && (!body_time || *wheel_time <= *body_time);
-  const double t = body_reads ? *body_time : *wheel_time;
+  const double t = std::min(sprung_.next, unsprung_.next);
+  if (std::isinf(t)) return std::nullopt;
   now_.advance(t);
 
   DriveSample sample;
   sample.stamp = fromSeconds(t);
   sample.truth = now_.truth().struts.front();
-  if (body_reads) {
-    const Sway sway = sway_.at(t);
+  if (sprung_.next == t) {
+    const Sway sway = sway_(t);
     sample.sprung = sprung_.accelerometer.read(t, readBody(t, sway));
     sample.body = withNoise(sway);
-    sprung_.schedule.advance();
+    scheduleNext(sprung_);
   }
-  if (wheel_reads) {
+  if (unsprung_.next == t) {
     sample.unsprung = unsprung_.accelerometer.read(t, sample.truth.unsprung_acceleration);
     sample.road = road_.read(t, sample.truth.road_acceleration);
-    unsprung_.schedule.advance();
+    scheduleNext(unsprung_);
   }
-  for (const TimeWindow& window : scenario_.zero_readings) {
-    if (!window.contains(t)) continue;
+  if (losesReadings(options_, t)) {
     if (sample.sprung) sample.sprung->acceleration = 0.0;
     if (sample.unsprung) sample.unsprung->acceleration = 0.0;
     if (sample.road) sample.road->acceleration = 0.0;
@@ -49,13 +52,23 @@ std::optional<DriveSample> DriveSimulator::next() {
   return sample;
 }
 
+void DriveSimulator::scheduleNext(ScheduledSensor& sensor) const {
+  const auto k = static_cast<double>(++sensor.index);
+  sensor.next = sensor.phase + k / sensor.rate;
+  // A duration that is a whole number of periods must not lose its last sample to rounding.
+  if (k > (options_.duration - sensor.phase) * sensor.rate + 1e-6)
+    sensor.next = std::numeric_limits<double>::infinity();
+  else if (options_.sampling_jitter > 0.0)  // without jitter no number is drawn
+    sensor.next += options_.sampling_jitter * sensor.timing.uniform();
+}
+
 Sway DriveSimulator::withNoise(Sway sway) {
-  const auto add = [this](std::array<double, 2>& values, double noise) {
-    if (noise == 0.0) return;  // no number is drawn, so that other settings keep theirs
+  const auto add = [this](std::array<double, 2>& values, double rms, double noise) {
+    if (rms == 0.0 || noise == 0.0) return;  // no number is drawn, so that other settings keep theirs
     for (double& value : values) value += noise * sway_random_.gaussian();
   };
-  add(sway.acceleration, sway_noise_[0]);
-  add(sway.angular_rate, sway_noise_[1]);
+  add(sway.acceleration, options_.body_acceleration, options_.noise);
+  add(sway.angular_rate, options_.body_rate, options_.gyro_noise);
   return sway;
 }
 

@@ -71,11 +71,11 @@ double isoDisplacementDensity(char road_class, double spatial_frequency) {
   return at_reference / (ratio * ratio);
 }
 
-IsoRoad::IsoRoad(char road_class, double speed, int seed, RoadLine line)
+IsoRoad::IsoRoad(char road_class, double speed, int seed, double lateral, unsigned surface)
     : amplitude_(kComponents), omega_(kComponents), phase_(kComponents), table_(kBlockIntervals + 1) {
   requireAboveZero("speed", speed, "m/s");
-  RandomStream random(seed, RandomPurpose::kRoad, line.surface);
-  RandomStream across(seed, RandomPurpose::kRoadLateral, line.surface);
+  RandomStream random(seed, RandomPurpose::kRoad, surface);
+  RandomStream across(seed, RandomPurpose::kRoadLateral, surface);
   const double width = std::log(kHighest / kLowest) / kComponents;
   for (int i = 0; i < kComponents; ++i) {
     const double low = kLowest * std::exp(i * width);
@@ -86,7 +86,7 @@ IsoRoad::IsoRoad(char road_class, double speed, int seed, RoadLine line)
     amplitude_[i] = std::sqrt(2.0 * variance);
     omega_[i] = 2.0 * M_PI * n * speed;
     const double s = 2.0 * across.uniform() - 1.0;
-    phase_[i] = 2.0 * M_PI * (random.uniform() + n * s / std::sqrt(1.0 - s * s) * line.lateral);
+    phase_[i] = 2.0 * M_PI * (random.uniform() + n * s / std::sqrt(1.0 - s * s) * lateral);
   }
   grid_step_ = 1.0 / (kPointsPerWave * kHighest * speed);
   cosine_step_ = (omega_ * grid_step_).array().cos();
@@ -100,13 +100,6 @@ RoadPoint IsoRoad::operator()(double t) {
   if (block != block_) tabulate(block);
   const auto first = static_cast<std::size_t>(interval - block * kBlockIntervals);
   return interpolate(table_[first], table_[first + 1], grid_step_, position - static_cast<double>(interval));
-}
-
-RoadPoint IsoRoad::exact(double t) const {
-  const Eigen::ArrayXd angle = omega_.array() * t + phase_.array();
-  const Eigen::VectorXd cosine = amplitude_.array() * angle.cos();
-  const Eigen::VectorXd sine = amplitude_.array() * angle.sin();
-  return {cosine.sum(), -omega_.dot(sine), -omega_.cwiseAbs2().dot(cosine)};
 }
 
 void IsoRoad::tabulate(long block) {

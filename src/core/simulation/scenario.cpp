@@ -1,70 +1,12 @@
 #include "suspension_health_monitor/internal/simulation/scenario.h"
 
 #include <algorithm>
+#include <map>
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/simulation/sensors.h"
 
 namespace suspension_health_monitor {
-namespace {
-
-/// A vehicle and the road it is meant for.
-struct ScenarioVehicle {
-  std::string_view name;
-  QuarterCar car;
-  char iso_class;
-  double speed;  // [m/s]
-};
-
-// paper: section 4, non-pneumatic tyres, hence a rigid wheel.
-// golden_car: the reference quarter car of the International Roughness Index (Sayers, "On the calculation of
-//   International Roughness Index from longitudinal road profile", TRR 1501, 1995): beta/M = 6.0 1/s, K/M = 63.3 1/s^2,
-//   K0/M = 653 1/s^2, m/M = 0.15; only ratios are given there, M = 250 kg is ours.
-// rover, ugv: our own choice of a small slow rover (body 1.7 Hz) and of a softer, faster one (1.0 Hz) on bad ground,
-//   with the golden car's ratio K0/K of about 10.
-constexpr ScenarioVehicle kVehicles[] = {
-    {"paper", {50.0, 5.0, 150.0, 690.0, std::nullopt}, 'C', 5.0},
-    {"golden_car", {250.0, 37.5, 1500.0, 15825.0, 163250.0}, 'C', 15.0},
-    {"rover", {10.0, 2.0, 50.0, 1200.0, 12000.0}, 'E', 2.0},
-    {"ugv", {50.0, 7.5, 200.0, 2000.0, 20000.0}, 'D', 6.0},
-};
-
-// The paper leaves its limit open. These stops are reached on its bumps only: 50 000 N/m on its 50 kg.
-constexpr EndStops kPaperStops{0.09, 1000.0};
-constexpr TimeWindow kPaperLosses[] = {{25.0, 26.0}, {65.0, 66.0}};
-constexpr double kPaperDampingLeft = 100.0 / 150.0;
-
-const ScenarioVehicle& findVehicle(const SimulationOptions& options) {
-  std::string_view name = options.vehicle;
-  if (name == "default") name = options.scenario == "iso_road" ? "golden_car" : "paper";
-  return *std::find_if(std::begin(kVehicles), std::end(kVehicles), [&](const auto& v) { return v.name == name; });
-}
-
-VehicleStrut strutOf(const QuarterCar& car, const SimulationOptions& options) {
-  VehicleStrut strut;
-  strut.damping = car.damping;
-  strut.stiffness = car.stiffness;
-  strut.wheel_mass = car.unsprung_mass;
-  strut.tyre_stiffness = car.tyre_stiffness.value_or(0.0);
-  strut.damping_end_fraction =
-      options.damping_end_fraction.value_or(options.scenario == "iso_road" ? 1.0 : kPaperDampingLeft);
-  strut.ramp_start = options.ramp_start;
-  strut.ramp_end = options.ramp_end;
-  if (options.scenario == "paper_saturation") strut.end_stops = kPaperStops;
-  strut.hidden = options.hidden;
-  return strut;
-}
-
-Road makeRoad(const SimulationOptions& options, const ScenarioVehicle& vehicle) {
-  if (options.scenario == "iso_road") {
-    const char iso_class = options.iso_class == "default" ? vehicle.iso_class : options.iso_class.front();
-    return IsoRoad(iso_class, options.speed.value_or(vehicle.speed), options.seed);
-  }
-  if (options.scenario == "paper_saturation") return [](double t) { return paperRoad(t) + paperBumps(t); };
-  return paperRoad;
-}
-
-}  // namespace
 
 void validate(const SimulationOptions& options) {
   validate(options, kSimulationFields);
@@ -92,19 +34,52 @@ double fasterRate(const SimulationOptions& options) {
   return std::max(options.rate, options.unsprung_rate.value_or(options.rate));
 }
 
-Scenario makeScenario(const SimulationOptions& options) {
-  validate(options);
-  const ScenarioVehicle& vehicle = findVehicle(options);
-  Scenario result;
-  result.vehicle = vehicle.car;
-  if (options.damping_to_mass) result.vehicle.damping = *options.damping_to_mass * vehicle.car.sprung_mass;
-  if (options.stiffness_to_mass) result.vehicle.stiffness = *options.stiffness_to_mass * vehicle.car.sprung_mass;
-  result.driven.mass = vehicle.car.sprung_mass;
-  result.driven.struts = {strutOf(result.vehicle, options)};
-  result.road = makeRoad(options, vehicle);
-  if (options.scenario == "paper_outliers")
-    result.zero_readings.assign(std::begin(kPaperLosses), std::end(kPaperLosses));
-  return result;
+// paper: section 4, non-pneumatic tyres, hence a rigid wheel.
+// golden_car: the reference quarter car of the International Roughness Index (Sayers, "On the calculation of
+//   International Roughness Index from longitudinal road profile", TRR 1501, 1995): beta/M = 6.0 1/s, K/M = 63.3 1/s^2,
+//   K0/M = 653 1/s^2, m/M = 0.15; only ratios are given there, M = 250 kg is ours.
+// rover, ugv: our own choice of a small slow rover (body 1.7 Hz) and of a softer, faster one (1.0 Hz) on bad ground,
+//   with the golden car's ratio K0/K of about 10.
+Vehicle quarterCarOf(const SimulationOptions& options) {
+  // Mass, inertias, road and speed; of the strut name, place, damping, stiffness, the wheel's mass, the tyre's stiffness.
+  static const std::map<std::string, Vehicle> cars{
+      {"paper", {50.0, 0.0, 0.0, "C", 5.0, {{"", 0.0, 0.0, 0.0, 150.0, 690.0, 5.0}}}},
+      {"golden_car", {250.0, 0.0, 0.0, "C", 15.0, {{"", 0.0, 0.0, 0.0, 1500.0, 15825.0, 37.5, 163250.0}}}},
+      {"rover", {10.0, 0.0, 0.0, "E", 2.0, {{"", 0.0, 0.0, 0.0, 50.0, 1200.0, 2.0, 12000.0}}}},
+      {"ugv", {50.0, 0.0, 0.0, "D", 6.0, {{"", 0.0, 0.0, 0.0, 200.0, 2000.0, 7.5, 20000.0}}}},
+  };
+  constexpr double kPaperDampingLeft = 100.0 / 150.0;
+  const bool is_on_iso_road = options.scenario == "iso_road";
+  const std::string usual = is_on_iso_road ? "golden_car" : "paper";
+  Vehicle car = cars.at(options.vehicle == "default" ? usual : options.vehicle);
+  if (options.iso_class != "default") car.iso_class = options.iso_class;
+  car.speed = options.speed.value_or(car.speed);
+  VehicleStrut& strut = car.struts.front();
+  if (options.damping_to_mass) strut.damping = *options.damping_to_mass * car.mass;
+  if (options.stiffness_to_mass) strut.stiffness = *options.stiffness_to_mass * car.mass;
+  strut.damping_end_fraction = options.damping_end_fraction.value_or(is_on_iso_road ? 1.0 : kPaperDampingLeft);
+  strut.ramp_start = options.ramp_start;
+  strut.ramp_end = options.ramp_end;
+  if (options.scenario == "paper_saturation") {
+    // The paper leaves its limit open. These stops are reached on its bumps only: 50 000 N/m on its 50 kg.
+    strut.stop_gap = 0.09;
+    strut.stop_stiffness_to_mass = 1000.0;
+  }
+  strut.hidden = options.hidden;
+  return car;
+}
+
+Road roadOf(const SimulationOptions& options) {
+  if (options.scenario == "iso_road") {
+    const Vehicle car = quarterCarOf(options);
+    return IsoRoad(car.iso_class.front(), car.speed, options.seed);
+  }
+  if (options.scenario == "paper_saturation") return [](double t) { return paperRoad(t) + paperBumps(t); };
+  return paperRoad;
+}
+
+bool losesReadings(const SimulationOptions& options, double t) {
+  return options.scenario == "paper_outliers" && ((t >= 25.0 && t <= 26.0) || (t >= 65.0 && t <= 66.0));
 }
 
 }  // namespace suspension_health_monitor

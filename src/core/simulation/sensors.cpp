@@ -14,7 +14,11 @@ constexpr std::array kNoise{RandomPurpose::kSprungNoise, RandomPurpose::kUnsprun
 constexpr std::array kDelivery{RandomPurpose::kSprungDelivery, RandomPurpose::kUnsprungDelivery,
                                RandomPurpose::kRoadDelivery};
 
-BodySway::BodySway(const SimulationOptions& options) {
+std::function<Sway(double t)> swayOf(const SimulationOptions& options) {
+  struct Sine {
+    double amplitude, frequency, phase;  // frequency [rad/s]
+  };
+  using Sines = std::vector<Sine>;
   RandomStream random(options.seed, RandomPurpose::kSway);
   const auto draw = [&](double rms, double lowest, double highest) {
     Sines sines;
@@ -25,38 +29,21 @@ BodySway::BodySway(const SimulationOptions& options) {
     }
     return sines;
   };
-  for (Sines& sines : accelerations_) sines = draw(options.body_acceleration, 0.1, 1.0);
-  for (Sines& sines : rates_) sines = draw(options.body_rate, 0.3, 4.0);
-}
-
-Sway BodySway::at(double t) const {
-  Sway sway;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    for (const Sine& s : accelerations_[axis])
-      sway.acceleration[axis] += s.amplitude * std::sin(s.frequency * t + s.phase);
-    for (const Sine& s : rates_[axis]) {
-      sway.angular_rate[axis] += s.amplitude * std::sin(s.frequency * t + s.phase);
-      sway.angular_acceleration[axis] += s.amplitude * s.frequency * std::cos(s.frequency * t + s.phase);
+  std::array<Sines, 2> accelerations, rates;
+  for (Sines& sines : accelerations) sines = draw(options.body_acceleration, 0.1, 1.0);
+  for (Sines& sines : rates) sines = draw(options.body_rate, 0.3, 4.0);
+  return [accelerations, rates](double t) {
+    Sway sway;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      for (const Sine& s : accelerations[axis])
+        sway.acceleration[axis] += s.amplitude * std::sin(s.frequency * t + s.phase);
+      for (const Sine& s : rates[axis]) {
+        sway.angular_rate[axis] += s.amplitude * std::sin(s.frequency * t + s.phase);
+        sway.angular_acceleration[axis] += s.amplitude * s.frequency * std::cos(s.frequency * t + s.phase);
+      }
     }
-  }
-  return sway;
-}
-
-SensorSchedule::SensorSchedule(double rate, double phase, const SimulationOptions& options, RandomPurpose timing)
-    : rate_(rate),
-      phase_(phase),
-      jitter_(options.sampling_jitter),
-      duration_(options.duration),
-      random_(options.seed, timing) {
-  advance();
-}
-
-void SensorSchedule::advance() {
-  const auto k = static_cast<double>(++index_);
-  // A duration that is a whole number of periods must not lose its last sample to rounding.
-  next_.reset();
-  if (k <= (duration_ - phase_) * rate_ + 1e-6) next_ = phase_ + k / rate_;
-  if (next_ && jitter_ > 0.0) *next_ += jitter_ * random_.uniform();
+    return sway;
+  };
 }
 
 Accelerometer::Accelerometer(const SimulationOptions& options, Place place, unsigned index)
@@ -70,17 +57,13 @@ Accelerometer::Accelerometer(const SimulationOptions& options, Place place, unsi
       clock_rate_(place == Place::kSprung ? 1.0 + options.clock_skew : 1.0) {}
 
 std::optional<AccelerometerReading> Accelerometer::read(double t, double acceleration) {
-  const double measured = acceleration + drawNoise();
+  // A uniform variable of half-width h has the standard deviation h / sqrt(3).
+  const double noise =
+      gaussian_ ? noise_ * noise_random_.gaussian() : noise_ * std::sqrt(3.0) * (2.0 * noise_random_.uniform() - 1.0);
   const bool lost = delivery_random_.uniform() < dropout_;
   const double delay = stamp_jitter_ * delivery_random_.uniform();
   if (lost) return std::nullopt;
-  return AccelerometerReading{fromSeconds(clock_offset_ + clock_rate_ * t + delay), measured};
-}
-
-double Accelerometer::drawNoise() {
-  // A uniform variable of half-width h has the standard deviation h / sqrt(3).
-  if (gaussian_) return noise_ * noise_random_.gaussian();
-  return noise_ * std::sqrt(3.0) * (2.0 * noise_random_.uniform() - 1.0);
+  return AccelerometerReading{fromSeconds(clock_offset_ + clock_rate_ * t + delay), acceleration + noise};
 }
 
 SimulatedFaults SimulatedFaults::from(const std::vector<ActiveMeasurementEffect>& hidden) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
 #include "suspension_health_monitor/internal/model/model_settings.h"
@@ -41,14 +41,14 @@ void validate(const KnownForce& force, const Vehicle& vehicle) {
 
 }  // namespace
 
-double EndStops::forcePerMass(double travel) const {
-  return stiffness_to_mass * (std::max(0.0, travel - gap) + std::min(0.0, travel + gap));
-}
-
 double VehicleStrut::shareAt(double t, double end_fraction) const {
   if (t < ramp_start) return 1.0;
   if (t >= ramp_end) return end_fraction;
   return 1.0 + (t - ramp_start) / (ramp_end - ramp_start) * (end_fraction - 1.0);
+}
+
+double VehicleStrut::stopForceToMass(double travel) const {
+  return stop_stiffness_to_mass * (std::max(0.0, travel - stop_gap) + std::min(0.0, travel + stop_gap));
 }
 
 Eigen::Matrix3d VehicleImu::orientation() const {
@@ -164,21 +164,21 @@ void changeStrut(OptionMap& values, const EffectLibrary& library, VehicleStrut& 
   takeAll(group, values, kVehicleStrutFields, strut);
 }
 
-void changeBar(const std::string& name, const std::string& other, double stiffness, Vehicle& vehicle) {
-  AntiRollBar bar{};
-  prefixed("anti_roll_bars: ", [&] { bar = {vehicle.strutNamed(name), vehicle.strutNamed(other), stiffness}; });
-  const auto same = [&](const AntiRollBar& there) {
-    return std::minmax(there.first, there.second) == std::minmax(bar.first, bar.second);
-  };
-  std::vector<AntiRollBar>& bars = vehicle.anti_roll_bars;
-  bars.erase(std::remove_if(bars.begin(), bars.end(), same), bars.end());
-  bars.push_back(bar);
-}
-
 void changeBars(OptionMap& values, Vehicle& vehicle) {
+  std::vector<AntiRollBar>& bars = vehicle.anti_roll_bars;
+  const auto place = [&](const std::string& strut) {
+    return prefixed("anti_roll_bars: ", [&] { return vehicle.strutNamed(strut); });
+  };
   for (const auto& [name, others] : takeGroups(values, "anti_roll_bars"))
-    for (const auto& [other, stiffness] : others)
-      changeBar(name, other, toNumber("anti_roll_bars/" + name + '/' + other, stiffness, 0.0, kStiffest), vehicle);
+    for (const auto& [other, given] : others) {
+      const double stiffness = toNumber("anti_roll_bars/" + name + '/' + other, given, 0.0, kStiffest);
+      const AntiRollBar bar{place(name), place(other), stiffness};
+      const auto same = [&](const AntiRollBar& there) {
+        return std::minmax(there.first, there.second) == std::minmax(bar.first, bar.second);
+      };
+      bars.erase(std::remove_if(bars.begin(), bars.end(), same), bars.end());
+      bars.push_back(bar);
+    }
 }
 
 void changeKnownForces(OptionMap& values, Vehicle& vehicle) {
@@ -221,8 +221,7 @@ Vehicle takeVehicle(OptionMap& values, const EffectLibrary& library) {
   for (const auto& [name, settings] : takeGroups(named, "struts")) {
     requireName("struts/" + shortened(name), name);
     requireGiven("struts/" + name + ": ", settings, required);
-    vehicle.struts.emplace_back();
-    vehicle.struts.back().name = name;
+    vehicle.struts.emplace_back().name = name;
   }
   changeVehicle(values, library, vehicle);
   validate(vehicle);

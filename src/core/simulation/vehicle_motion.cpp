@@ -11,20 +11,9 @@
 
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/linear_solve.h"
-#include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
 namespace {
-
-std::string describe(const std::vector<ActiveEffect>& effects) {
-  std::string text;
-  for (const ActiveEffect& active : effects) {
-    text += (text.empty() ? " with " : "; ") + active.effect.name + formatted(" = %g", active.coefficient);
-    for (std::size_t i = 0; i < active.shapes.size(); ++i)
-      text += ", " + active.effect.shapes[i].name + formatted(" = %g", active.shapes[i]);
-  }
-  return text;
-}
 
 constexpr double kTolerance = 1e-10;  // per step of an integration, absolute [m, m/s] and relative
 constexpr double kFar = 1e4;          // [m], [m/s]: what goes beyond runs away
@@ -50,8 +39,7 @@ double longestStep(const Vehicle& vehicle) {
   double fastest = 0.0;  // square of an angular frequency: the body on its struts, a wheel between strut and tyre
   for (const VehicleStrut& strut : vehicle.struts) {
     const double mobility = vehicle.mobility(strut, strut);
-    const double stops = strut.end_stops ? strut.end_stops->stiffness_to_mass : 0.0;
-    const double stiffness = strut.stiffness + stops / mobility;
+    const double stiffness = strut.stiffness + strut.stop_stiffness_to_mass / mobility;
     const double of_wheel = strut.isRigid() ? 0.0 : (stiffness + strut.tyre_stiffness) / strut.wheel_mass;
     fastest = std::max(fastest, stiffness * mobility + of_wheel);
   }
@@ -79,14 +67,13 @@ VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
 
 VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, double between_samples,
                              std::vector<Signal> known_forces)
-    : vehicle_(vehicle),
+    : vehicle_(checked(vehicle)),
       roads_(std::move(roads)),
       known_forces_(std::move(known_forces)),
       inverse_inertia_(1.0 / vehicle.mass, vehicle.pitches() ? 1.0 / vehicle.pitch_inertia : 0.0,
                        vehicle.rolls() ? 1.0 / vehicle.roll_inertia : 0.0),
       longest_step_(longestStep(vehicle)),
       sampled_step_(std::min(longest_step_, between_samples)) {
-  validate(vehicle_);
   for (const VehicleStrut& strut : vehicle_.struts) own_mobility_.push_back(vehicle_.mobility(strut, strut));
   truth_.struts.resize(vehicle_.struts.size());
   ground_.resize(vehicle_.struts.size());
@@ -115,8 +102,15 @@ void VehicleMotion::advance(double t) {
 }
 
 void VehicleMotion::giveUp(const char* why, double t) const {
-  throw std::invalid_argument("the strut" + describe(hiddenIn(vehicle_)) + " is " + why +
-                              formatted(" (%g s after the start of the drive)", t));
+  std::string text = "the strut";
+  const char* before = " with ";
+  for (const ActiveEffect& active : hiddenIn(vehicle_)) {
+    text += before + active.effect.name + formatted(" = %g", active.coefficient);
+    for (std::size_t i = 0; i < active.shapes.size(); ++i)
+      text += ", " + active.effect.shapes[i].name + formatted(" = %g", active.shapes[i]);
+    before = "; ";
+  }
+  throw std::invalid_argument(text + " is " + why + formatted(" (%g s after the start of the drive)", t));
 }
 
 const VehicleTruth& VehicleMotion::truth() {
@@ -149,7 +143,7 @@ void VehicleMotion::findForces(const State& state, double t) {
     truth.damping_to_mass = own_mobility_[i] * strut.damping * strut.shareAt(t, strut.damping_end_fraction);
     truth.stiffness_to_mass = own_mobility_[i] * strut.stiffness * strut.shareAt(t, strut.stiffness_end_fraction);
     double per_mass = truth.damping_to_mass * truth.travel_rate + truth.stiffness_to_mass * truth.travel;
-    if (strut.end_stops) per_mass += strut.end_stops->forcePerMass(truth.travel);
+    if (strut.stop_stiffness_to_mass > 0.0) per_mass += strut.stopForceToMass(truth.travel);
     for (const ActiveEffect& active : strut.hidden) {
       per_mass += active.force({truth.travel, truth.travel_rate, t, {memory[0], memory[1]}});
       memory += 2;

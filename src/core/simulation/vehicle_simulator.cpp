@@ -38,12 +38,6 @@ std::vector<VehicleMotion::Signal> signalsOf(const Vehicle& vehicle, int seed) {
   return signals;
 }
 
-RoadLine lineUnder(const VehicleStrut& strut, const std::string& tracks) {
-  if (tracks == "coherent") return {strut.y, 0};
-  if (tracks == "identical") return {};
-  return {0.0, strut.y > 0.0 ? 0U : strut.y < 0.0 ? 1U : 2U};
-}
-
 // Accelerometers, whose clocks are right.
 SimulationOptions sensorsOf(const VehicleDriveOptions& drive) {
   SimulationOptions sensors;
@@ -56,12 +50,6 @@ SimulationOptions sensorsOf(const VehicleDriveOptions& drive) {
   return sensors;
 }
 
-template <class Settings>
-const Settings& checked(const Settings& settings) {
-  validate(settings);
-  return settings;
-}
-
 }  // namespace
 
 void validate(const VehicleDriveOptions& options) {
@@ -71,13 +59,20 @@ void validate(const VehicleDriveOptions& options) {
            formatted("less than one sample period, 1 / rate = %g", 1.0 / options.rate));
 }
 
+// @return 0: left, 1: right, 2: in the middle.
+unsigned sideOf(const VehicleStrut& strut) {
+  if (strut.y > 0.0) return 0;
+  return strut.y < 0.0 ? 1 : 2;
+}
+
 std::vector<Road> tracksOf(const Vehicle& vehicle, const std::string& tracks, int seed) {
   double front = vehicle.struts.front().x;
   for (const VehicleStrut& strut : vehicle.struts) front = std::max(front, strut.x);
   std::vector<Road> roads;
   for (const VehicleStrut& strut : vehicle.struts) {
-    const double delay = (front - strut.x) / vehicle.speed;
-    IsoRoad road(vehicle.iso_class.front(), vehicle.speed, seed, lineUnder(strut, tracks));
+    const double delay = (front - strut.x) / vehicle.speed, lateral = tracks == "coherent" ? strut.y : 0.0;
+    const unsigned surface = tracks == "independent" ? sideOf(strut) : 0;
+    IsoRoad road(vehicle.iso_class.front(), vehicle.speed, seed, lateral, surface);
     roads.emplace_back([road, delay](double t) mutable { return road(t - delay); });
   }
   return roads;
@@ -103,7 +98,6 @@ VehicleSimulator::VehicleSimulator(const Vehicle& vehicle, const VehicleDriveOpt
       options_(checked(options)),
       motion_(vehicle_, tracksOf(vehicle_, options.tracks, options.seed), 1.0 / options.rate,
               signalsOf(vehicle_, options.seed)),
-      schedule_(options.rate, 0.0, sensorsOf(options), RandomPurpose::kSprungTiming),
       body_(sensorsOf(options), Accelerometer::Place::kSprung),
       body_noise_(options.seed, RandomPurpose::kSwayNoise),
       gyro_noise_(options.seed, RandomPurpose::kGyroNoise),
@@ -116,10 +110,10 @@ VehicleSimulator::VehicleSimulator(const Vehicle& vehicle, const VehicleDriveOpt
 }
 
 std::optional<VehicleInstant> VehicleSimulator::next() {
-  const std::optional<double> next = schedule_.next();
-  if (!next) return std::nullopt;
-  schedule_.advance();
-  const double t = *next;
+  const auto k = static_cast<double>(index_++);
+  // A duration that is a whole number of periods must not lose its last instant to rounding.
+  if (k > options_.duration * options_.rate + 1e-6) return std::nullopt;
+  const double t = k / options_.rate;
   motion_.advance(t);
 
   VehicleInstant sample;

@@ -36,8 +36,9 @@ bool VehicleGrid::push(std::size_t sensor, Stamp stamp, const double* values) {
   bool is_taken = true;
   for (std::size_t i = 0; i < its.count; ++i) {
     auto instant = grid_.push(its.stream + i, stamp, values[i]);
-    is_taken = is_taken && grid_.taken();
-    if (is_taken && i + 1 == its.count) lead(its, values, *grid_.taken());
+    const std::optional<Stamp>& taken = grid_.gate(its.stream + i).taken();
+    is_taken = is_taken && taken;
+    if (is_taken && i + 1 == its.count) lead(its, values, *taken);
     for (; instant != nullptr; instant = grid_.next()) take(*instant);
   }
   return did_pair && grid_.resamples();

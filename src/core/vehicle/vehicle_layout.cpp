@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "suspension_health_monitor/internal/base/setting_groups.h"
+#include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/vehicle/tuning.h"
 
@@ -122,6 +122,11 @@ void checkTopics(const VehicleLayout& layout) {
 }
 
 }  // namespace
+
+void VehicleLayout::turn(const Eigen::Matrix3d& mount) {
+  for (Strut& strut : struts)
+    if (strut.position) Eigen::Map<Eigen::Vector3d>(strut.position->data()).applyOnTheLeft(mount);
+}
 
 // Of two struts in one place the body's IMU says the same, whatever the body does.
 void requireApart(const VehicleLayout& layout) {

@@ -23,56 +23,45 @@ double quantile(const std::vector<ResidualBin>& bins, double share) {
   return bins.back().to;
 }
 
-/// The range of a quantity, and where the tenth of the samples at either end begins.
-struct Ends {
-  explicit Ends(const std::vector<ResidualBin>& bins)
-      : lowest(bins.front().from),
+/// The range of travel or of travel rate, and where the tenth of the samples at either end begins.
+struct Quantity {
+  Quantity(const std::vector<ResidualBin>& bins, bool of_travel)
+      : is_travel(of_travel),
+        lowest(bins.front().from),
         from(quantile(bins, kSmall)),
         to(quantile(bins, 1.0 - kSmall)),
-        highest(bins.back().to) {}
+        highest(bins.back().to),
+        unit(is_travel ? ReadableUnit(largest(), "m") : ReadableUnit::plain(largest(), "m/s")) {}
 
-  bool isZero(double value) const { return std::abs(value) < kNearZero * (to - from); }
+  double largest() const { return std::max(std::abs(from), std::abs(to)); }
 
+  const char* placeOf(const FailureRegion& region) const {
+    const auto is_zero = [&](double value) { return std::abs(value) < kNearZero * (to - from); };
+    if (region.from >= to) return is_travel ? "In deep compression" : "Compressing fast";
+    if (region.to <= from) return is_travel ? "Far extended" : "Extending fast";
+    if (is_zero(region.from) || region.from > 0.0) return is_travel ? "In compression" : "Compressing";
+    if (is_zero(region.to) || region.to < 0.0) return is_travel ? "In extension" : "Extending";
+    return is_travel ? "At mid travel" : "Moving slowly";
+  }
+
+  bool is_travel;
   double lowest, from, to, highest;
+  ReadableUnit unit;
 };
 
-/// How one quantity's regions are called.
-struct Places {
-  const char *quantity, *top, *bottom, *above, *below, *middle;
-};
-constexpr Places kTravelPlaces{"travel",         "In deep compression", "Far extended",
-                               "In compression", "In extension",        "At mid travel"};
-constexpr Places kRatePlaces{"travel rate", "Compressing fast", "Extending fast",
-                             "Compressing", "Extending",        "Moving slowly"};
-
-const char* placeOf(const FailureRegion& region, const Ends& ends, const Places& places) {
-  if (region.from >= ends.to) return places.top;
-  if (region.to <= ends.from) return places.bottom;
-  if (ends.isZero(region.from) || region.from > 0.0) return places.above;
-  if (ends.isZero(region.to) || region.to < 0.0) return places.below;
-  return places.middle;
-}
+/// @return e.g. "10 to 20 mm".
+std::string rangeIn(const ReadableUnit& unit, double from, double to) { return unit.number(from) + " to " + unit(to); }
 
 class FailureSentences {
  public:
-  FailureSentences(const ResidualViews& views, double noise_floor)
-      : travel_ends_(views.travel),
-        rate_ends_(views.travel_rate),
-        travel_(std::max(std::abs(travel_ends_.from), std::abs(travel_ends_.to)), "m"),
-        rate_(ReadableUnit::plain(std::max(std::abs(rate_ends_.from), std::abs(rate_ends_.to)), "m/s")),
-        acceleration_(ReadableUnit::plain(views.rms, "m/s^2")),
-        time_(ReadableUnit::plain(views.time.back().to, "s")),
-        frequency_(ReadableUnit::plain(views.spectrum ? views.spectrum->frequency.back() : 1.0, "Hz")),
-        several_drives_(views.time.back().drive > 0),
-        noise_floor_(noise_floor),
-        coherence_threshold_(views.spectrum ? views.spectrum->coherence_threshold : 1.0) {}
+  FailureSentences(const ResidualViews& views, double noise_floor) : views_(views), noise_floor_(noise_floor) {}
 
   void describe(FailureRegion& region) const {
     switch (region.view) {
       case FailureView::kOffset: return offset(region);
       case FailureView::kTime: return region.drift == FailureRegion::Drift::kNone ? time(region) : drift(region);
-      case FailureView::kTravel: return along(kTravelPlaces, travel_, travel_ends_, region);
-      case FailureView::kTravelRate: return along(kRatePlaces, rate_, rate_ends_, region);
+      case FailureView::kTravel: return along(travel_, region);
+      case FailureView::kTravelRate: return along(rate_, region);
       case FailureView::kSurface: return surface(region);
       case FailureView::kDirection: return direction(region);
       case FailureView::kFrequency: return frequency(region);
@@ -82,27 +71,25 @@ class FailureSentences {
   }
 
  private:
-  void along(const Places& places, const ReadableUnit& unit, const Ends& ends, FailureRegion& region) const {
-    const std::string name = places.quantity;
-    if (region.to >= ends.highest)
-      region.region = name + " above " + unit(region.from);
-    else if (region.from <= ends.lowest)
-      region.region = name + " below " + unit(region.to);
-    else
-      region.region = name + " " + unit.number(region.from) + " to " + unit(region.to);
+  void along(const Quantity& quantity, FailureRegion& region) const {
+    const ReadableUnit& unit = quantity.unit;
+    std::string range = " " + rangeIn(unit, region.from, region.to);
+    if (region.from <= quantity.lowest) range = " below " + unit(region.to);
+    if (region.to >= quantity.highest) range = " above " + unit(region.from);
+    region.region = (quantity.is_travel ? "travel" : "travel rate") + range;
     const std::string what = region.mean == 0.0 ? "the model is worst, though not to one side" : push(region.mean);
-    region.sentence = std::string(placeOf(region, ends, places)) + " (" + region.region + ", " + percent(region.share) +
+    region.sentence = std::string(quantity.placeOf(region)) + " (" + region.region + ", " + percent(region.share) +
                       " of the drive) " + what + ": " + errors(region) + ".";
   }
 
   void time(FailureRegion& region) const {
-    region.region = time_.number(region.from) + " to " + time_(region.to) + inDrive(region);
+    region.region = rangeIn(time_, region.from, region.to) + inDrive(region);
     region.sentence = "From " + region.region + " the model is worst: " + errors(region) + ".";
   }
 
   void surface(FailureRegion& region) const {
-    region.region = "travel " + travel_.number(region.from) + " to " + travel_(region.to) + " at " +
-                    rate_.number(region.rate_from) + " to " + rate_(region.rate_to);
+    region.region = "travel " + rangeIn(travel_.unit, region.from, region.to) + " at " +
+                    rangeIn(rate_.unit, region.rate_from, region.rate_to);
     region.sentence = std::string("When it ") + (region.rate_from >= 0.0 ? "compresses" : "extends") + " there (" +
                       region.region + ", " + percent(region.share) + " of the drive) " + push(region.mean) +
                       ", which neither travel nor rate alone shows.";
@@ -110,18 +97,18 @@ class FailureSentences {
 
   void direction(FailureRegion& region) const {
     region.region = "direction of motion";
-    region.sentence = "At the same travel the strut pushes the body up " + acceleration_(std::abs(region.mean)) +
-                      (region.mean > 0.0 ? " harder" : " less") +
+    region.sentence = "At the same travel " + pushes(region.mean) +
                       " while it compresses than while it extends, beyond the model's damping: " +
                       (region.mean > 0.0 ? "friction, a part with memory, or more damping than the model has."
                                          : "damping that is not linear, or less of it than the model has.");
   }
 
   void frequency(FailureRegion& region) const {
-    region.region = frequency_.number(region.from) + " to " + frequency_(region.to);
+    region.region = rangeIn(frequency_, region.from, region.to);
+    const double threshold = views_.spectrum ? views_.spectrum->coherence_threshold : 1.0;
     const char* follows = "it does not follow the wheel in proportion, as friction, stops or loose parts do not";
-    if (region.coherence > coherence_threshold_) follows = "a part of it follows the wheel in proportion";
-    if (region.coherence > std::max(kMajority, coherence_threshold_))
+    if (region.coherence > threshold) follows = "a part of it follows the wheel in proportion";
+    if (region.coherence > std::max(kMajority, threshold))
       follows = "it follows the wheel in proportion, so the model's own numbers are off";
     region.sentence = "Half of what is not noise lies between " + frequency_.number(region.from) + " and " +
                       frequency_(region.to) + " (rmse " + acceleration_(region.rmse) + "); " + follows + ".";
@@ -137,7 +124,7 @@ class FailureSentences {
   void drift(FailureRegion& region) const {
     const std::string name = region.drift == FailureRegion::Drift::kDamping ? "damping" : "stiffness";
     const auto of = [](double change) { return percent(std::abs(change)) + (change > 0.0 ? " more" : " less"); };
-    region.region = name + " from " + time_.number(region.from) + " to " + time_(region.to) + inDrive(region);
+    region.region = name + " from " + rangeIn(time_, region.from, region.to) + inDrive(region);
     region.sentence = "The " + name + " seems to change during the drive" + inDrive(region) + ": in its first third " +
                       of(region.first_third) + " than the model has, in its last third " + of(region.last_third) + ".";
   }
@@ -155,7 +142,7 @@ class FailureSentences {
   }
 
   std::string inDrive(const FailureRegion& region) const {
-    return several_drives_ ? " of drive " + std::to_string(region.drive + 1) : "";
+    return views_.time.back().drive > 0 ? " of drive " + std::to_string(region.drive + 1) : "";
   }
 
   std::string errors(const FailureRegion& region) const {
@@ -164,15 +151,18 @@ class FailureSentences {
            " elsewhere";
   }
 
-  std::string push(double mean) const {
-    return "the strut pushes the body up " + acceleration_(std::abs(mean)) + (mean > 0.0 ? " harder" : " less") +
-           " than the model";
+  std::string pushes(double mean) const {
+    return "the strut pushes the body up " + acceleration_(std::abs(mean)) + (mean > 0.0 ? " harder" : " less");
   }
 
-  Ends travel_ends_, rate_ends_;
-  ReadableUnit travel_, rate_, acceleration_, time_, frequency_;
-  bool several_drives_;
-  double noise_floor_, coherence_threshold_;
+  std::string push(double mean) const { return pushes(mean) + " than the model"; }
+
+  const ResidualViews& views_;
+  double noise_floor_;
+  Quantity travel_{views_.travel, true}, rate_{views_.travel_rate, false};
+  ReadableUnit acceleration_ = ReadableUnit::plain(views_.rms, "m/s^2");
+  ReadableUnit time_ = ReadableUnit::plain(views_.time.back().to, "s");
+  ReadableUnit frequency_ = ReadableUnit::plain(views_.spectrum ? views_.spectrum->frequency.back() : 1.0, "Hz");
 };
 
 }  // namespace

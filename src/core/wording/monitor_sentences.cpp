@@ -198,13 +198,9 @@ std::string describeDoubt(const StrutEstimate& estimate, double enough) {
 }
 
 const char* nameOf(HealthLevel level) {
-  switch (level) {
-    case HealthLevel::kOk: return "OK";
-    case HealthLevel::kWarn: return "WARN";
-    case HealthLevel::kError: return "ERROR";
-    case HealthLevel::kStale: break;
-  }
-  return "STALE";
+  constexpr std::array kNames{"OK", "WARN", "ERROR", "STALE"};
+  static_assert(kNames.size() == static_cast<std::size_t>(HealthLevel::kStale) + 1);
+  return kNames[static_cast<std::size_t>(level)];
 }
 
 std::string describeSilent(const std::vector<std::string>& topics) {

@@ -3,7 +3,6 @@
 #include "suspension_health_monitor/internal/base/text.h"
 #include "suspension_health_monitor/internal/math/statistics.h"
 #include "suspension_health_monitor/internal/signal/period_measurement.h"
-#include "suspension_health_monitor/internal/signal/stream_resampler.h"
 #include "suspension_health_monitor/internal/signal/tuning.h"
 
 namespace suspension_health_monitor {

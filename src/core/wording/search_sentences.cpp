@@ -1,6 +1,7 @@
 #include "suspension_health_monitor/internal/wording/search_sentences.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "suspension_health_monitor/internal/base/text.h"
@@ -49,13 +50,9 @@ std::string suggest(const SeparatingDrive& drive) {
          " here.";
 }
 
-bool wanders(const SearchResult& result) {
-  return std::any_of(result.ranking.begin(), result.ranking.end(),
-                     [](const RankedModel& model) { return model.failure == FitFailure::kWanders; });
-}
-
 std::string suggestForUnexplained(const SearchResult& result) {
-  if (wanders(result))
+  const auto wanders = [](const RankedModel& model) { return model.failure == FitFailure::kWanders; };
+  if (std::any_of(result.ranking.begin(), result.ranking.end(), wanders))
     return "The reading's offset wanders more slowly than the strut moves, and a constant one would not be larger than "
            "that: a body that leans by more than two degrees turns gravity away from its IMUs, or a sensor drifts.";
   if (result.folded_share > kMostFolded)
@@ -84,13 +81,9 @@ std::string describe(const EffectCost& cost) {
 }
 
 const char* nameOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kEffectFound: return "effect_found";
-    case Verdict::kSuspect: return "suspect";
-    case Verdict::kNothingMissing: return "nothing_missing";
-    case Verdict::kUnexplained: break;
-  }
-  return "unexplained";
+  constexpr std::array kNames{"effect_found", "suspect", "nothing_missing", "unexplained"};
+  static_assert(kNames.size() == static_cast<std::size_t>(Verdict::kUnexplained) + 1);
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 std::string summaryOf(const SearchResult& result) {

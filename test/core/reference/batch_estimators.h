@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 
 namespace suspension_health_monitor {
 

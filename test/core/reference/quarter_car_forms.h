@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "suspension_health_monitor/internal/simulation/scenario.h"
+#include "../quarter_car.h"
 
 namespace suspension_health_monitor {
 

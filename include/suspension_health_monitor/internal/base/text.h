@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -83,7 +85,7 @@ std::string join(const std::vector<std::string>& names, const std::string& separ
 /// @return what it makes of every item, in their order.
 template <class Items, class Make>
 auto mapped(const Items& items, const Make& make) {
-  std::vector<std::decay_t<decltype(std::invoke(make, *items.begin()))>> made;
+  std::vector<std::decay_t<decltype(std::invoke(make, *std::begin(items)))>> made;
   for (const auto& item : items) made.push_back(std::invoke(make, item));
   return made;
 }
@@ -92,6 +94,15 @@ auto mapped(const Items& items, const Make& make) {
 template <class Records>
 std::vector<std::string> namesOf(const Records& records) {
   return mapped(records, [](const auto& record) -> std::string { return record.name; });
+}
+
+/// Takes the items out of a list for which keep(item) is false.  @return them, in their order.
+template <class Item, class Keep>
+std::vector<Item> takeUnless(std::vector<Item>& items, const Keep& keep) {
+  const auto first = std::stable_partition(items.begin(), items.end(), keep);
+  std::vector<Item> taken(first, items.end());
+  items.erase(first, items.end());
+  return taken;
 }
 
 /// @return the size of a change in whole percent, whatever its sign: "12 %".

@@ -18,8 +18,8 @@ class SlidingFriction {
   /// @param length  of the blocks [s].
   static SlidingFriction ofBlocks(double length) {
     constexpr double kSteps = 4096.0;  // per block: a thousand and more per bounce
-    constexpr double kMemory = 2.0;    // of the slow mean [blocks]
-    return {length / kSteps, kMemory * length};
+    constexpr double kBlocks = 2.0;    // memory of the slow mean
+    return {length / kSteps, kBlocks * length};
   }
 
   /// @param friction  f [m/s^2].

@@ -4,18 +4,14 @@
 
 #include "suspension_health_monitor/internal/health/baseline.h"
 #include "suspension_health_monitor/internal/health/health_rules.h"
-#include "suspension_health_monitor/internal/health/sensor_check.h"
 #include "suspension_health_monitor/monitor_options.h"
 #include "suspension_health_monitor/monitor_report.h"
 
 namespace suspension_health_monitor {
 
-struct HealthOptions : HealthThresholds {
-  double hysteresis = 0.02;  ///< a level ends this far below its threshold, or a standard deviation [-]
-
-  /// @throws std::invalid_argument  if an error threshold is below its warning threshold.
-  void validate() const;
-};
+/// @throws std::invalid_argument  if an error threshold is below its warning threshold, or friction is given without
+/// its gain, or the other way round.
+void requireConsistent(const HealthThresholds& thresholds);
 
 /// Judges damping and stiffness by their change from the healthy strut: nominal values, or a baseline that it learns.
 ///
@@ -27,15 +23,14 @@ struct HealthOptions : HealthThresholds {
 /// - What all dampers of a vehicle share is their temperature: below the error threshold a damper is judged by what it
 ///   has beyond it.
 /// - A level needs the size and the significance in two estimates in a row and for the confirm time
-///   (LevelConfirmation). It ends when the change is below the threshold by the hysteresis, or a standard deviation if
-///   that is more, or has lost half of the significance. A change that the error threshold could not prove is kStale,
-///   "cannot tell", as is an estimate that is not valid; never "healthy". While a sensor is at fault the level is WARN
-///   at most.
+///   (LevelConfirmation). It ends when the change is 0.02 below the threshold, or a standard deviation if that is
+///   more, or has lost half of the significance. A change that the error threshold could not prove is kStale, "cannot
+///   tell", as is an estimate that is not valid; never "healthy". While a sensor is at fault the level is WARN at most.
 /// - Early warning: EarlyWarning over the changes of windows that share no reading.
 /// Cost per update: O(1), no allocation.
 class HealthAssessment {
  public:
-  explicit HealthAssessment(const HealthOptions& options);
+  explicit HealthAssessment(const HealthThresholds& options);
 
   /// @param stamp  now; stamps that go back restart the confirmation.
   /// @param estimate  of the blocks.
@@ -65,8 +60,8 @@ class HealthAssessment {
   const HealthReport& report() const { return report_; }
 
   /// Judges by other thresholds from now on; a level that is being confirmed stays so.
-  /// @throws std::invalid_argument  as HealthOptions::validate(); the thresholds then stay as they were.
-  void setOptions(const HealthOptions& options);
+  /// @throws std::invalid_argument  as requireConsistent(); the thresholds then stay as they were.
+  void setOptions(const HealthThresholds& options);
 
  private:
   static constexpr double kHeavy = 4.0;  // StrutEstimate::tails: 2 as Laplace's, twice that
@@ -84,9 +79,8 @@ class HealthAssessment {
   void noteLoad(const StrutChange& change);
   LoadDoubt doubtOfLoad(const StrutChange& change) const;
   void judge(const StrutChange& change);
-  void updateEarlyWarning(const StrutChange& change, double window);
 
-  HealthOptions options_;
+  HealthThresholds options_;
   LevelConfirmation confirmation_;
   Baseline baseline_;
   std::optional<BaselineLearner> learner_;

@@ -24,19 +24,13 @@ struct MeasuredChange {
   bool is_mostly_friction = false;             ///< x1 is uncertain mostly by what friction makes of another road
 };
 
-/// The load that explains both changes best, and how well.
-struct LoadAlone {
-  double log_mass = 0.0;
-  double distance = 0.0;  ///< of both changes from it, in standard deviations
-};
-
 /// What has changed: body mass, damping, stiffness, each relative to the healthy strut (0: not at all).
 struct StrutChange {
   MeasuredChange measured;
   std::optional<double> damping, stiffness;
   std::optional<double> payload;            ///< of the body's mass; empty: only one of the two parameters can be judged
   double damping_stddev, stiffness_stddev;  ///< of ln(1 + change); NaN: not known
-  std::optional<LoadAlone> load_alone;      ///< the rival of any damage; empty: there is none
+  std::optional<double> distance_from_load;  ///< distanceFromLoad(); empty: no payload is possible
 
   /// @return standard deviation of x1 - x0, of two that are measured.
   double apartStddev() const;
@@ -45,8 +39,9 @@ struct StrutChange {
 /// @param both  two that are measured.
 /// @param range  of ln of the body's mass over that of the healthy vehicle, from the lightest to the heaviest that
 /// payload makes it.
-/// @return by weighted least squares over the range, with the joint covariance.
-LoadAlone explainByLoad(const MeasuredChange& both, const std::pair<double, double>& range);
+/// @return distance of both changes from those by the load that explains them best, in standard deviations: by weighted
+/// least squares over the range, with the joint covariance.
+double distanceFromLoad(const MeasuredChange& both, const std::pair<double, double>& range);
 
 /// Tells payload from damage. b1 = beta/M and b0 = K/M: a mass that is m times as large (ln m = p) moves both by -p,
 /// damage moves one:  x1 = ln(b1/b1n) = d - p,  x0 = ln(b0/b0n) = s - p.
@@ -55,7 +50,7 @@ LoadAlone explainByLoad(const MeasuredChange& both, const std::pair<double, doub
 /// and a vehicle that was lighter and then has lost damping is not one that was loaded and has a stiffer spring. What
 /// is not significant of p - q counts as none: it is shrunk by 1 - (2 sigma / (p - q))^2, at least 0 (L. Breiman,
 /// Better subset regression using the nonnegative garrote, 1995), so that the noise of b0 does not enter the size of a
-/// damage. Payload alone is the rival of every damage (explainByLoad()): a damage is no more significant than it is
+/// damage. Payload alone is the rival of every damage (distanceFromLoad()): a damage is no more significant than it is
 /// certain that no payload explains the same. So a damping that is certainly lower is not yet the damper's fault as
 /// long as the stiffness may be as much lower.
 /// @param payload_range  largest relative change of mass that can be payload; what is beyond is damage. 0: none is.
@@ -123,9 +118,8 @@ class ChangeTrend {
  public:
   /// @param change  the newest one.  @param age  of its data [s].
   /// @param now  a time that increases [s].  @param window  span of the data [s].
-  /// @param certain  standard deviations that a slope must have to be one.
   /// @return the change as it is now.
-  Measured carryOn(const Measured& change, double age, double now, double window, double certain);
+  Measured carryOn(const Measured& change, double age, double now, double window);
 
   void restart() { points_.clear(); }
 

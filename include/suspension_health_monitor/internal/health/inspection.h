@@ -22,14 +22,6 @@ struct WheelRanges {
   ValueRange tyre_to_mass{};  ///< K0/M [1/s^2]
 };
 
-/// A linear quarter car, everything over its sprung mass.
-struct QuarterCarRatios {
-  double damping_to_mass;    ///< b1 [1/s]
-  double stiffness_to_mass;  ///< b0 [1/s^2]
-  double mass_ratio;         ///< m/M [-], >= 0
-  double tyre_to_mass;       ///< K0/M [1/s^2], > 0
-};
-
 /// The least load of a wheel over its static load, on a plate that moves up and down as a sine of 6 mm from top to
 /// bottom: with u = 3 mm the plate's amplitude, w and z those of wheel and body, s = 2 pi i f,
 ///     z = H w,  H = (b1 s + b0) / (s^2 + b1 s + b0),      of  M z'' = beta (w' - z') + K (w - z)
@@ -37,12 +29,12 @@ struct QuarterCarRatios {
 /// so that the load swings by |K0 (u - w)| = M |K0/M s^2 (H + m/M) / (K0/M + s^2 (H + m/M))| u about (M + m) g. A wheel
 /// that would pull at the plate leaves it: 0. Source: the method of the European Shock Absorber Manufacturers
 /// Association (EUSAMA), as M. Klapka, I. Mazurek, O. Machacek describe it (Engineering Mechanics 2016).
-/// @param frequency  f [Hz], >= 0.
+/// @param frequency  f [Hz], >= 0.  @param mass_ratio  m/M [-], >= 0.  @param tyre_to_mass  K0/M [1/s^2], > 0.
 /// @return in [0, 1].
-double adhesionAt(double frequency, const QuarterCarRatios& car);
+double adhesionAt(double frequency, const LinearStrut& strut, double mass_ratio, double tyre_to_mass);
 
 /// @return the worst of all frequencies up to 25 Hz, from where the plate of a tester runs down.
-double leastAdhesion(const QuarterCarRatios& car);
+double leastAdhesion(const LinearStrut& strut, double mass_ratio, double tyre_to_mass);
 
 enum class InspectedQuantity {
   kDampingRatio,        ///< of a strut, b1 / (2 sqrt(b0)) [-]; its limit is the least

@@ -63,7 +63,7 @@ class UdCovariance {
   }
 
   /// @return P, (p, p).
-  Eigen::MatrixXd matrix() const { return upper_ * diagonal_.asDiagonal() * upper_.transpose(); }
+  Eigen::MatrixXd matrix() const;
 
  private:
   Eigen::MatrixXd upper_;     // U, unit diagonal
@@ -90,22 +90,10 @@ class BatchScatter {
         ratios_(num_parameters, RunningMean(1.0 - 1.0 / kBatches)) {}
 
   /// Of other parameters, knowing of those that stay what was known.
-  BatchScatter(const BatchScatter& before, const std::vector<ColumnOrigin>& columns)
-      : BatchScatter(static_cast<int>(columns.size()), before.correlated_rows_) {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (columns[i].before) ratios_[i] = before.ratios_[*columns[i].before];
-  }
+  BatchScatter(const BatchScatter& before, const std::vector<ColumnOrigin>& columns);
 
   /// @param gain  of the row, by parameter.
-  void add(const Eigen::VectorXd& gain, double innovation) {
-    if (correlated_rows_ == 0 || ++rows_ <= 0) return;  // the first batch leads from the start values to the strut
-    sum_ += innovation * gain;
-    squares_ += (innovation * gain).cwiseAbs2();
-    if (rows_ < batch_rows_) return;
-    for (Eigen::Index i = 0; i < sum_.size(); ++i)
-      if (squares_[i] > 0.0) ratios_[i].add(sum_[i] * sum_[i] / squares_[i]);
-    interrupt();
-  }
+  void add(const Eigen::VectorXd& gain, double innovation);
 
   /// The next row does not follow the one before.
   void interrupt() {
@@ -115,14 +103,7 @@ class BatchScatter {
   }
 
   /// @return the factor of parameter i; until three batches are complete as if all rows of a window were equal.
-  double inflation(int i) const {
-    if (correlated_rows_ == 0) return 1.0;
-    const RunningMean& ratio = ratios_[i];
-    const double n = ratio.weight();
-    // Batches cut off a part of a correlation that falls linearly: g^2 lacks 1 / (3 kCorrelationsPerBatch) of it.
-    const double kept = 1.0 - 1.0 / (3.0 * kCorrelationsPerBatch);
-    return n < kFewestBatches ? correlated_rows_ + 1.0 : std::max(1.0, ratio.mean() / kept * n / (n - 2.0));
-  }
+  double inflation(int i) const;
 
  private:
   static constexpr int kCorrelationsPerBatch = 4;

@@ -36,7 +36,7 @@ void requireUsable(const std::vector<ActiveEffect>& effects);
 /// Cost per sample: O(1) for a given model, no allocation.
 class FreeRun {
  public:
-  static constexpr int kDelay = BandlimitedInterpolator::kHalfWidth;  ///< samples
+  static constexpr int kDelay = kInterpolationReach;  ///< samples
 
   /// @param period  sampling time T > 0 [s].
   explicit FreeRun(double period);

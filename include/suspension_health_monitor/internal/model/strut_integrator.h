@@ -49,7 +49,7 @@ inline double slowestDecay(double damping_to_mass, double stiffness_to_mass) {
 /// Turns samples of w'' into wheel steps.
 class WheelInterpolator {
  public:
-  static constexpr int kWidth = 2 * BandlimitedInterpolator::kHalfWidth;
+  static constexpr int kWidth = 2 * kInterpolationReach;
 
   /// @param from, to  ends of the step in samples, 0 <= from < to <= 1.  @param period  T [s].
   WheelInterpolator(double from, double to, double period);

@@ -3,29 +3,23 @@
 #include "suspension_health_monitor/internal/base/option_table.h"
 #include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/identification/linear_integral_filter.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/monitor_options.h"
 
 namespace suspension_health_monitor {
 
-/// What a preset sets and no option can: how rows are made, and how the estimators begin, weigh and forget.
-struct EstimatorOptions {
-  IntegrationRule rule = IntegrationRule::kBandLimited;
-  bool drifting_offset = true;     ///< of the sensors: it is estimated with the strut (SuspensionRegression)
-  bool forgets_unexcited = false;  ///< true: rows of a parked vehicle count, too, as in the paper
-  RecursiveOptions recursive;      ///< whose forgetting factor, correlated rows and offset are set for each estimator
-};
-
-/// Rows that an estimate needs before it is worth something, in horizons: noise of a tenth then makes an error of 1 or
-/// 2 %.
-inline constexpr double kFewestHorizons = 5.0 / 3.0;
 inline constexpr int kMostHorizonSamples = 100000;  ///< more is a wrong unit
 
 /// The options of a monitor with what follows from them: the preset's way to make rows and to estimate, and the
 /// settings of each part. Group, name, unit, meaning and range of each option stand in kMonitorFields only.
 struct MonitorSettings : MonitorOptions {
-  EstimatorOptions estimators;  ///< the preset's; no options of users
+  // What a preset sets and no option can: how rows are made, and how the estimators begin, weigh and forget.
+  IntegrationRule integration_rule = IntegrationRule::kBandLimited;
+  bool forgets_unexcited = false;  ///< true: rows of a parked vehicle count, too, as in the paper
+  /// Of strut and wheel; recursive() sets the forgetting factor and the correlated rows. An offset that drifts, as by
+  /// every preset but "paper", needs two parameters more.
+  RecursiveOptions estimators;
 
   MonitorSettings(const MonitorOptions& options = {});  // NOLINT(google-explicit-constructor): options in other words
 
@@ -70,7 +64,6 @@ struct MonitorSettings : MonitorOptions {
   /// @param period  sampling time [s].
   /// @return so many horizons of rows, or nine tenths of a shorter memory.
   double fewestRows(double horizons, double period) const;
-  HealthOptions health() const { return {static_cast<const HealthThresholds&>(*this)}; }
 };
 
 /// Takes the options that `values` names out of it; what is not among them is the preset's.

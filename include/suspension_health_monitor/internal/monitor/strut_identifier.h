@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_absolute.h"
-#include "suspension_health_monitor/internal/identification/recursive_least_squares.h"
+#include "suspension_health_monitor/internal/identification/recursive_estimators.h"
 #include "suspension_health_monitor/internal/identification/regression.h"
 #include "suspension_health_monitor/internal/monitor/monitor_settings.h"
 #include "suspension_health_monitor/internal/monitor/validity_gate.h"
@@ -23,9 +22,15 @@ class StrutIdentifier {
   /// @throws std::invalid_argument  naming the option, its value and what is allowed.
   explicit StrutIdentifier(const MonitorSettings& options);
 
-  /// Goes on with other effects: one column for each beside b1 and b0. Allocates.
-  /// @param effects  where their coefficients come from; ColumnOrigin::before counts from the first effect.
-  void changeEffects(const std::vector<ColumnOrigin>& effects);
+  /// The same of the wheel, Eq. (2), m w'' = beta (z' - w') + K (z - w) + K0 (mu - w), likewise differentiated twice:
+  ///   I_2^2 w'' = -(beta/m) I_1^2 u - (K/m) I_0^2 u + (K0/m) I_0^2 (mu'' - w'') + e,   u = w'' - z'' [m/s^2].
+  /// The wheel is to the body what the body is to the wheel: the caller swaps both readings of a sample, and gives
+  /// mu'' - w'' as the force of an effect. A constant common to all sensors vanishes. Without changeModel().
+  static StrutIdentifier ofWheel(MonitorSettings options);
+
+  /// Goes on with another model: one column for each beside b1 and b0. Allocates.
+  /// @param columns  where b1, b0 and the effects' coefficients come from.
+  void changeModel(std::vector<ColumnOrigin> columns);
 
   /// Takes in the next sample of an uninterrupted uniform series.
   /// @param effect_forces  f_j at this sample, one per effect.
@@ -46,6 +51,10 @@ class StrutIdentifier {
   bool hasRow() const { return has_row_; }  ///< of the newest sample
   bool holds() const { return holds_; }
 
+  /// @return false once the outputs of a horizon of rows in succession are exactly 0: without any noise there is no
+  /// motion, but a sensor that is stuck or a simulated vehicle at rest.
+  bool moves() const { return silent_rows_ < filter_.horizon_samples; }
+
   /// A gap, or another drive: the filter fills anew.
   void startNewSeries();
 
@@ -54,7 +63,7 @@ class StrutIdentifier {
 
   /// From the next row on; the estimates stay.
   /// @param options  of which memory and forgetting_factor count.
-  /// @throws std::invalid_argument  as RecursiveEstimator.
+  /// @throws std::invalid_argument  as RecursiveLeastSquares.
   void setForgetting(const MonitorSettings& options);
 
   /// @return the factor that rows are forgotten by.
@@ -64,13 +73,16 @@ class StrutIdentifier {
   double coefficient(std::size_t j) const { return least_absolute_.parameters()[kNumStrutParameters + j]; }
 
  private:
+  /// @param num_accelerations  columns of accelerations, beside those of the strut.
+  StrutIdentifier(const MonitorSettings& options, const IntegralFilterOptions& filter, int num_accelerations);
+
   int numModelColumns() const { return least_absolute_.numParameters() - offset_columns_; }
   void update(const RegressionRow& row);
 
   /// Calls act(estimator) with each.
   template <class Act>
   void forEach(const Act& act) {
-    for (RecursiveEstimator* each : std::initializer_list<RecursiveEstimator*>{&least_squares_, &least_absolute_})
+    for (RecursiveLeastSquares* each : std::initializer_list<RecursiveLeastSquares*>{&least_squares_, &least_absolute_})
       act(*each);
   }
 
@@ -81,7 +93,7 @@ class StrutIdentifier {
   RecursiveLeastSquares least_squares_;
   RecursiveLeastAbsolute least_absolute_;
   double lost_memories_ = 0.0;  // for which LS's mean residual has been below half of LA's
-  SilentRows silent_rows_;
+  int silent_rows_ = 0;         // without a break; counts up to the horizon and stays there
   bool has_row_ = false;
   bool holds_ = false;
   double rows_;               // of the model's present columns

@@ -64,11 +64,7 @@ class DriveRecord {
   const std::vector<CornerSample>& noise() const { return noise_; }  ///< Drive::noise
 
  private:
-  /// @param stretch  places of uninterrupted samples in the drive.
-  void addSegment(const Drive& drive, const std::vector<std::size_t>& stretch);
-
   double period_;
-  int steps_;
   double mean_wheel_ = 0.0;
   std::vector<DriveSegment> segments_;
   std::vector<CornerSample> noise_;
@@ -84,9 +80,6 @@ Segments segmentsOf(const Records& records);
 
 /// @return the time from one segment to the next by their stamps [s]; below 0 if the clock began anew.
 double restBetween(const DriveSegment& before, const DriveSegment& after);
-
-/// @return one series of every segment, such as &DriveSegment::sprung.
-std::vector<std::vector<double>> seriesOf(const Segments& segments, std::vector<double> DriveSegment::*series);
 
 /// The drives as records, integrated in steps that follow the strut's fastest motion.
 /// @param model  a damped spring.

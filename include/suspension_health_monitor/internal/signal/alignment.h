@@ -30,6 +30,27 @@ inline Alignment alignment(std::string_view name) {
   throw std::invalid_argument("alignment = " + std::string(name) + ", must be one of " + std::string(kAlignmentNames));
 }
 
+/// What a stream is to a StreamGrid.
+struct StreamOptions {
+  /// The streams of one sensor share its stamps, as the six channels of an IMU do. A sensor is still if all of its
+  /// streams are: a vehicle that drives straight on turns about no axis.
+  std::size_t sensor = 0;
+  /// Every instant needs a reading of this stream. The grid waits for the other streams until the readings of the
+  /// reference that wait span more than kMostOptionalLag.
+  bool required = true;
+  /// A force may rest while the vehicle moves, stay at an end of its range, and have any unit: it is not judged by what
+  /// accelerations are like.
+  bool is_force = false;
+};
+inline constexpr Stamp kMostOptionalLag = std::chrono::seconds(1);  ///< half of the usual input_timeout
+
+/// The values of all streams of a StreamGrid at one instant.
+struct GridInstant {
+  Stamp stamp{};
+  std::vector<double> values;  ///< by stream
+  std::vector<bool> measured;  ///< by stream; false: an optional one without a reading near, whose value is old
+};
+
 /// How a grid brings the streams of sensors together.
 struct GridOptions {
   Alignment alignment = Alignment::kPaired;

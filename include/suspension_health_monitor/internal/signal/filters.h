@@ -4,7 +4,6 @@
 #include <boost/circular_buffer.hpp>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
@@ -31,38 +30,24 @@ inline void passLow(const std::vector<double>& taps, std::vector<double>& signal
   values = lowPassed(taps, values);
 }
 
-/// Values of a sampled signal between its samples: a weighted sum of the twelve samples on either side, whose weights
-/// minimise a mean square error over all frequencies up to 0.9 of Nyquist's, the low ones counting most.
+/// A value between two samples is a weighted sum of so many samples on either side.
+inline constexpr int kInterpolationReach = 12;
+inline constexpr double kInterpolationAccuracy = 2e-4;  ///< of a sine's amplitude, up to half of Nyquist's frequency
+
+/// Weights of the samples around for the value of a sampled signal between two of them. They minimise a mean square
+/// error over all frequencies up to 0.9 of Nyquist's, the low ones counting most.
 /// A wheel on a rough road is shaken close to that limit, where straight lines and even cubic splines leave errors of
-/// the size of the sensor noise. Here a sine is good to kAccuracy of its amplitude up to 0.5 of Nyquist's frequency, to
-/// 1e-3 up to 0.75, and to 2e-2 at 0.88. Source: least squares fractional delay, Laakso, Valimaki, Karjalainen and
-/// Laine, IEEE Signal Processing Magazine 13 (1996), 30-60, eq. (35)-(38).
-class BandlimitedInterpolator {
- public:
-  static constexpr int kHalfWidth = 12;
-  static constexpr double kAccuracy = 2e-4;  ///< of a sine's amplitude, up to half of Nyquist's frequency
+/// the size of the sensor noise. Here a sine is good to kInterpolationAccuracy of its amplitude up to 0.5 of Nyquist's
+/// frequency, to 1e-3 up to 0.75, and to 2e-2 at 0.88. Source: least squares fractional delay, Laakso, Valimaki,
+/// Karjalainen and Laine, IEEE Signal Processing Magazine 13 (1996), 30-60, eq. (35)-(38).
+/// @param fraction  position between sample k (0) and sample k + 1 (1).
+/// @return weights of samples k - kInterpolationReach + 1 .. k + kInterpolationReach.
+std::vector<double> interpolationWeights(double fraction);
 
-  /// @param fraction  position between sample k (0) and sample k + 1 (1).
-  explicit BandlimitedInterpolator(double fraction);
-
-  /// @param around  the 2 kHalfWidth samples k - kHalfWidth + 1 .. k + kHalfWidth.
-  double operator()(const double* around) const {
-    double sum = 0.0;
-    for (int i = 0; i < 2 * kHalfWidth; ++i) sum += weights_[i] * around[i];
-    return sum;
-  }
-
-  /// The integral of the signal from one position to another, weighted by (to - position)^power: power 0 turns an
-  /// acceleration into the gain of velocity, power 1 into the gain of position. In samples; multiply by T^(1 + power).
-  static BandlimitedInterpolator integral(double from, double to, int power);
-
-  const std::vector<double>& weights() const { return weights_; }  ///< one per sample, the oldest first
-
- private:
-  explicit BandlimitedInterpolator(std::vector<double> weights) : weights_(std::move(weights)) {}
-
-  std::vector<double> weights_;
-};
+/// The same for the integral of the signal from one position to another, weighted by (to - position)^power: power 0
+/// turns an acceleration into the gain of velocity, power 1 into the gain of position. In samples; multiply by
+/// T^(1 + power).
+std::vector<double> integrationWeights(double from, double to, int power);
 
 /// Low-pass filtered signals and the derivatives of others, all of them by the same low-pass filter H: any linear
 /// relation between signals and derivatives at one instant, such as a = alpha x r with alpha = omega', holds between
@@ -113,28 +98,24 @@ class MotionFilter {
   boost::circular_buffer<Stamp> stamps_;  // of these samples since the last gap
 };
 
-/// Derivative of a uniformly sampled series: the slope, in the middle, of the cubic that fits 2 m + 1 samples best
-/// (least squares). Exact for polynomials of degree 4; white noise of standard deviation s comes out as s noiseGain().
-class SlopeFilter {
- public:
-  static constexpr int kWidest = 12;
+/// Weights for the derivative of a uniformly sampled series: the slope, in the middle, of the cubic that fits 2 m + 1
+/// samples best (least squares). Exact for polynomials of degree 4.
+/// @param half_width  m >= 2.  @param period  T > 0 [s].
+/// @return weights of x[k] - x[-k], k = 1 .. m.
+Eigen::VectorXd slopeWeights(int half_width, double period);
 
-  /// @param half_width  m in [2, kWidest].  @param period  T > 0 [s].
-  SlopeFilter(int half_width, double period);
+inline constexpr int kWidestSlope = 12;  ///< the largest m that fittingSlope() takes
 
-  /// @return of m = 2, 4, 8, 12 the narrowest with which noise is less than a thousandth of the slope's mean square.
-  /// The noise is what the fourth differences show: nothing that a series is worth sampling for has such.
-  /// @param series  each with kWidest samples on either side of where slopes are wanted.
-  static SlopeFilter fitting(const std::vector<std::vector<double>>& series, double period);
+/// @return the weights of m = 2, 4, 8, 12, the narrowest with which noise is less than a thousandth of the slope's mean
+/// square. The noise is what the fourth differences show: nothing that a series is worth sampling for has such.
+/// @param series  each with kWidestSlope samples on either side of where slopes are wanted.
+Eigen::VectorXd fittingSlope(const std::vector<std::vector<double>>& series, double period);
 
-  /// @param middle  with m samples before and behind it.
-  double operator()(const double* middle) const;
+/// @param middle  with as many samples before and behind it as there are weights.
+/// @return the slope there [unit/s].
+double weightedSlope(const double* middle, const Eigen::VectorXd& weights);
 
-  int halfWidth() const { return static_cast<int>(weights_.size()); }
-  double noiseGain() const { return std::sqrt(2.0) * weights_.norm(); }
-
- private:
-  Eigen::VectorXd weights_;  // of x[k] - x[-k], k = 1 .. m
-};
+/// @return standard deviation of the slope of white noise whose standard deviation is 1 [1/s].
+inline double noiseOfSlope(const Eigen::VectorXd& weights) { return std::sqrt(2.0) * weights.norm(); }
 
 }  // namespace suspension_health_monitor

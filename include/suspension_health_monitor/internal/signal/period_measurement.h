@@ -64,10 +64,16 @@ class FirstReadings {
   /// Takes in the next reading, or keeps it out.
   /// @return the sampling time [s] once it is known.
   std::optional<double> add(Reading reading) {
-    if (const std::optional<RejectReason> fault = measurement_.add(reading.stream, reading.stamp))
+    if (const std::optional<RejectReason> fault = measurement_.add(reading.stream, reading.stamp)) {
       rejected_[reading.stream].add(*fault);
-    else
-      keep(std::move(reading));
+      return measurement_.period();
+    }
+    if (waiting_.size() == most_) {
+      for (const Reading& each : waiting_) rejected_[each.stream].add(RejectReason::kMissingPartner);
+      waiting_.clear();
+      measurement_.restart();
+    }
+    append(std::move(reading));
     return measurement_.period();
   }
 
@@ -88,15 +94,6 @@ class FirstReadings {
   const RejectCounts& rejected(std::size_t stream) const { return rejected_[stream]; }
 
  private:
-  void keep(Reading reading) {
-    if (waiting_.size() == most_) {
-      for (const Reading& each : waiting_) rejected_[each.stream].add(RejectReason::kMissingPartner);
-      waiting_.clear();
-      measurement_.restart();
-    }
-    waiting_.push_back(std::move(reading));
-  }
-
   PeriodMeasurement measurement_;
   std::size_t most_ = 0;  // that may wait: more, and a required stream is silent
   std::deque<Reading> waiting_;

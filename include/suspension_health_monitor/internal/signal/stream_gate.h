@@ -13,28 +13,19 @@
 namespace suspension_health_monitor {
 
 /// What the readings of one sensor are like, the newest thousand of them. Cost per reading: O(1), no allocation.
-class ReadingStatistics {
- public:
+struct ReadingStatistics {
+  std::optional<double> last;  ///< reading
+  int equal_in_a_row = 0;    ///< of one value, without a break, up to the last one; counts up to kSignalTuning.stuck
+  double finest_step = 0.0;  ///< smallest step other than 0 from one reading to the next
+  RunningMean average{StreamClock::kMemory};
+  RunningMean distance{StreamClock::kMemory};  ///< from the average
+  RunningMean repeated{StreamClock::kMemory};   ///< 1: a reading equals the one before; both extremes are left out
+
   /// @param is_extreme  it equals the highest or the lowest reading so far, which a range may have cut off.
   void add(double reading, bool is_extreme);
 
-  /// @return how many of the last readings are of one value, without a break; up to kSignalTuning.stuck.
-  int equalInARow() const { return equal_in_a_row_; }
-
-  double mean() const { return mean_.mean(); }
-  double deviation() const { return deviation_.mean(); }  ///< mean distance from the mean
-  double finestStep() const { return finest_step_; }      ///< smallest step other than 0 from one reading to the next
-  double repeated() const { return repeated_.mean(); }    ///< share of readings that equal the one before, in [0, 1]
-
   /// @return true if they are enough to tell mean and spread.
-  bool areEnough() const { return std::min(mean_.weight(), repeated_.weight()) >= kSignalTuning.fewest_for_means; }
-
- private:
-  std::optional<double> last_;
-  int equal_in_a_row_ = 0;
-  double finest_step_ = 0.0;                    // other than 0
-  RunningMean repeated_{StreamClock::kMemory};  // 1 for a reading that equals the one before, both extremes left out
-  RunningMean mean_{StreamClock::kMemory}, deviation_{StreamClock::kMemory};
+  bool areEnough() const { return std::min(average.weight(), repeated.weight()) >= kSignalTuning.fewest_for_means; }
 };
 
 /// The upper or the lower end of what one sensor has read: do its readings stop there because its range does?
@@ -134,10 +125,10 @@ class StreamGate {
 
   /// @return true if the last kSignalTuning.stuck readings were all the same: a sensor that is stuck, or a
   /// vehicle at rest and a sensor that resolves coarsely. Which of the two, the strut's other sensor tells.
-  bool isStill() const { return statistics_.equalInARow() == kSignalTuning.stuck; }
+  bool isStill() const { return statistics_.equal_in_a_row == kSignalTuning.stuck; }
 
   /// @return the mean distance of the newest thousand readings from their mean [m/s^2].
-  double deviation() const { return statistics_.deviation(); }
+  double deviation() const { return statistics_.distance.mean(); }
 
   /// @return how far from that mean any reading has been [m/s^2], those that were kept out as absurd left out.
   double farthest() const;
@@ -145,8 +136,8 @@ class StreamGate {
   const RejectCounts& rejected() const { return rejected_; }
   const StreamClock& clock() const { return clock_; }
 
-  /// @return when the last reading that passed was taken (StreamClock).
-  Stamp taken() const { return taken_; }
+  /// @return when the last reading was taken (StreamClock); empty if it was kept out.
+  const std::optional<Stamp>& taken() const { return taken_; }
 
  private:
   std::optional<RejectReason> faultOfStamp(Stamp stamp) const;
@@ -163,7 +154,7 @@ class StreamGate {
   RangeEnd upper_{1.0}, lower_{-1.0};            // likewise
   RejectCounts rejected_;
   StreamClock clock_;
-  Stamp taken_{};
+  std::optional<Stamp> taken_;
 };
 
 }  // namespace suspension_health_monitor

@@ -7,8 +7,8 @@
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
 #include "suspension_health_monitor/internal/signal/alignment.h"
-#include "suspension_health_monitor/internal/signal/grid_streams.h"
 #include "suspension_health_monitor/internal/signal/readings.h"
+#include "suspension_health_monitor/internal/signal/stream_gate.h"
 #include "suspension_health_monitor/internal/signal/stream_resampler.h"
 
 namespace suspension_health_monitor {
@@ -42,9 +42,6 @@ class StreamGrid {
   /// @return the next instant that the readings so far complete, likewise.
   const GridInstant* next();
 
-  /// @return when the newest reading was taken (StreamClock); empty if it was kept out.
-  const std::optional<Stamp>& taken() const { return taken_; }
-
   /// @return true if the streams are resampled, and why, if it was found out.
   bool resamples() const { return never_pairs_ || verdict() != AlignmentJudge::Verdict::kDoesWell; }
   AlignmentJudge::Verdict verdict() const { return judge_ ? judge_->verdict() : AlignmentJudge::Verdict::kDoesWell; }
@@ -69,11 +66,27 @@ class StreamGrid {
   std::uint64_t bridged() const;
 
  private:
-  GridStream& reference() { return streams_[reference_]; }
-  void dropOldest(GridStream& full);
+  /// One stream, and what has become of its readings.
+  struct Stream : StreamOptions {
+    StreamGate gate;
+    ReadingQueue waiting = ReadingQueue(kMostWaiting);
+    RejectCounts rejected = {};  // of those that passed the gate
+    std::uint64_t missed = 0;    // readings of others and instants that were lost for want of a reading of this stream
+    bool is_silent = false;      // optional, and is not waited for until it comes again
+    bool is_still = false;       // at the instant at hand
+
+    /// Drops the oldest reading that waits: it has no partner.
+    void drop() {
+      rejected.add(RejectReason::kMissingPartner);
+      waiting.pop_front();
+    }
+  };
+
+  Stream& reference() { return streams_[reference_]; }
+  void dropOldest(Stream& full);
   void startNewSeries(std::size_t first);
   bool areWaiting() const;
-  bool mayStillCome(GridStream& optional) const;
+  bool mayStillCome(Stream& optional) const;
   bool rejectStuck();
 
   bool pairNext();
@@ -90,13 +103,12 @@ class StreamGrid {
   Stamp period_;
   bool never_pairs_;
   std::size_t reference_;
-  std::vector<GridStream> streams_;
+  std::vector<Stream> streams_;
   std::vector<bool> sensor_is_still_;
   std::optional<AlignmentJudge> judge_;      // of kAuto; none: pairing goes on however badly it does
   std::vector<StreamResampler> resamplers_;  // by stream
   std::optional<Stamp> origin_, next_;       // of the resampled series, its next instant
   GridInstant instant_;
-  std::optional<Stamp> taken_;
 };
 
 }  // namespace suspension_health_monitor

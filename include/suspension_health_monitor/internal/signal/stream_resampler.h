@@ -54,7 +54,6 @@ class SmoothingSpline {
   void begin(std::int64_t first);
   void penalise(const std::array<double, kOpen>& difference);
   void penaliseNewest();
-  void closeOldest();
   void eliminateOldest(Closed& closed);
 
   bool empty_ = true;

@@ -49,7 +49,6 @@ class StreamSilence {
 
  private:
   bool isSilent(std::size_t stream) const { return lasting(stream) > Stamp::zero(); }
-  void begin(Stamp stamp);
   void end();
   std::vector<std::string> namesOf(bool with_past) const;
 

@@ -42,7 +42,7 @@ struct SignalTuning {
   /// Bodies move on their struts below this, wheels shake them up to it [Hz]; slower sampling ends it sooner.
   double body_band = 15.0;
   double same_filter = 10.0;  ///< weight of the relation between both filters of a MotionFilter
-  /// Of the rate: pass and stop band of a filter of BandlimitedInterpolator::kHalfWidth samples to either side; those
+  /// Of the rate: pass and stop band of a filter of kInterpolationReach samples to either side; those
   /// of a longer one are narrower by as much.
   double widest_flat = 0.24, widest_stop = 0.42;
   double penalty = 4e-6;        ///< lambda of the spline: 0.1 % of what a reading weighs, for the fastest motion

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <functional>
 #include <optional>
 
 #include "suspension_health_monitor/internal/base/corner_sample.h"
@@ -36,19 +36,23 @@ class DriveSimulator {
   std::optional<DriveSample> next();
 
  private:
+  /// The sensor reads at phase + k / rate, later by a uniform 0..sampling_jitter, and not after the end of the drive.
   struct ScheduledSensor {
     Accelerometer accelerometer;
-    SensorSchedule schedule;
+    RandomStream timing;
+    double rate, phase;    // [Hz], [s]
+    long long index = -1;  // k
+    double next = 0.0;     // time of the next reading [s]; infinite after the end of the drive
   };
 
+  void scheduleNext(ScheduledSensor& sensor) const;
   double readBody(double t, const Sway& sway);
   Sway withNoise(Sway sway);
 
-  Scenario scenario_;
+  SimulationOptions options_;
   ScheduledSensor sprung_, unsprung_;
   Accelerometer road_;
-  BodySway sway_;
-  std::array<double, 2> sway_noise_;  // of its acceleration, of its angular rate; none where it has no such motion
+  std::function<Sway(double t)> sway_;
   RandomStream sway_random_;
   SimulatedFaults faults_;
   VehicleMotion now_, delayed_;  // delayed: as the body's IMU sees it, faults_.delay ago

@@ -36,12 +36,6 @@ RoadPoint paperBumps(double t);
 /// @throws std::invalid_argument  on another letter.
 double isoDisplacementDensity(char road_class, double spatial_frequency);
 
-/// The line that a wheel follows: where it lies on which random surface.
-struct RoadLine {
-  double lateral = 0.0;  ///< [m]
-  unsigned surface = 0;  ///< another number, another surface with the same statistics
-};
-
 /// A random road of one ISO 8608 class, driven over at constant speed.
 ///
 /// Height is a sum of kComponents sinusoids with random phases. The band [kLowest, kHighest] is cut into as many
@@ -71,14 +65,13 @@ class IsoRoad {
   /// @param road_class  'A'..'H'.
   /// @param speed  > 0 [m/s].
   /// @param seed  same seed, same profile over distance, whatever class (up to scale) and speed.
+  /// @param lateral  where the wheel's line lies on the surface [m].
+  /// @param surface  another number, another surface with the same statistics.
   /// @throws std::invalid_argument  on another letter or speed.
-  IsoRoad(char road_class, double speed, int seed, RoadLine line = {});
+  IsoRoad(char road_class, double speed, int seed, double lateral = 0.0, unsigned surface = 0);
 
   /// @param t  [s], any time; quick when times are near the last one.
   RoadPoint operator()(double t);
-
-  /// The same from the sum itself, without a grid: slow, for checks.
-  RoadPoint exact(double t) const;
 
  private:
   void tabulate(long block);

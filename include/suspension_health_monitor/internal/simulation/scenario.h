@@ -10,24 +10,6 @@
 
 namespace suspension_health_monitor {
 
-/// One wheel, its strut and the share of the body above it, paper section 2.1.
-///
-///   M z'' = beta (w' - z') + K (w - z)                          (1)
-///   m w'' = -beta (w' - z') - K (w - z) - K0 (w - mu)           (2)
-///
-/// z sprung, w unsprung position, mu road height [m], up positive, all counted from the static equilibrium, so gravity
-/// does not appear. Without a tyre stiffness the wheel is rigid (K0 -> infinity): w = mu, and m drops out.
-struct QuarterCar {
-  double sprung_mass = 50.0;             ///< M [kg]
-  double unsprung_mass = 5.0;            ///< m [kg], without meaning for a rigid wheel
-  double damping = 150.0;                ///< beta [N s/m]
-  double stiffness = 690.0;              ///< K [N/m]
-  std::optional<double> tyre_stiffness;  ///< K0 [N/m]; none: rigid wheel
-
-  constexpr double dampingToMass() const { return damping / sprung_mass; }      ///< b1 [1/s]
-  constexpr double stiffnessToMass() const { return stiffness / sprung_mass; }  ///< b0 [1/s^2]
-};
-
 /// As many hidden effects a strut can have.
 inline constexpr std::size_t kMostHiddenEffects = 4;
 
@@ -110,22 +92,20 @@ void validate(const SimulationOptions& options);
 /// @return readings per second of the faster sensor.
 double fasterRate(const SimulationOptions& options);
 
-/// A stretch of time [first, last] in [s], both ends included.
-struct TimeWindow {
-  double first, last;
+/// One wheel, its strut and the share of the body above it, paper section 2.1, as a vehicle that only heaves:
+///
+///   M z'' = beta (w' - z') + K (w - z)                          (1)
+///   m w'' = -beta (w' - z') - K (w - z) - K0 (w - mu)           (2)
+///
+/// z sprung, w unsprung position, mu road height [m], up positive, all counted from the static equilibrium, so gravity
+/// does not appear. On a rigid wheel (K0 -> infinity) w = mu, and m drops out.
+/// @param options  valid.  @return the vehicle of the drive, with its ramp, end stops and hidden effects.
+Vehicle quarterCarOf(const SimulationOptions& options);
 
-  bool contains(double t) const { return t >= first && t <= last; }
-};
+/// @param options  valid.  @return the road of the drive.
+Road roadOf(const SimulationOptions& options);
 
-/// What the options amount to: the vehicle, the road, the faults of the sensors' wiring.
-struct Scenario {
-  QuarterCar vehicle;  ///< at the start of the drive
-  Vehicle driven;      ///< it with its ramp, end stops and hidden effects
-  Road road;
-  std::vector<TimeWindow> zero_readings;  ///< both accelerations read 0
-};
-
-/// @throws std::invalid_argument  as validate().
-Scenario makeScenario(const SimulationOptions& options);
+/// @param t  since the start of the drive [s].  @return true while all readings are 0, as the scenario wants it.
+bool losesReadings(const SimulationOptions& options, double t);
 
 }  // namespace suspension_health_monitor

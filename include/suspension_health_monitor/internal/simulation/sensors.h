@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,43 +19,10 @@ struct Sway {
   std::array<double, 2> angular_acceleration{};  ///< [rad/s^2]
 };
 
-/// The random motion of a body that brakes, corners, pitches and rolls: on each axis a sum of sines of random frequency
-/// and phase, 0.1 to 1 Hz for the accelerations, which so cancel over a drive, 0.3 to 4 Hz for the angular rates.
-/// Nothing else about it is physical; it does not act back on the strut.
-class BodySway {
- public:
-  explicit BodySway(const SimulationOptions& options);
-
-  Sway at(double t) const;
-
- private:
-  struct Sine {
-    double amplitude, frequency, phase;  // frequency [rad/s]
-  };
-  using Sines = std::vector<Sine>;
-
-  std::array<Sines, 2> accelerations_, rates_;
-};
-
-/// When one sensor of a simulated drive reads: at phase + k / rate, later by a uniform 0..jitter.
-class SensorSchedule {
- public:
-  /// The first reading is at t = 0, or at the phase; none is after the duration.
-  /// @param rate  [Hz].  @param phase  [s].  @param timing  for the jitter; no number is drawn without any.
-  SensorSchedule(double rate, double phase, const SimulationOptions& options, RandomPurpose timing);
-
-  /// @return time of the next reading [s]; none after the end of the drive.
-  std::optional<double> next() const { return next_; }
-
-  /// Goes on to the reading after.
-  void advance();
-
- private:
-  double rate_, phase_, jitter_, duration_;
-  RandomStream random_;
-  long long index_ = -1;
-  std::optional<double> next_;
-};
+/// @return the random motion of a body that brakes, corners, pitches and rolls, by time [s]: on each axis a sum of
+/// sines of random frequency and phase, 0.1 to 1 Hz for the accelerations, which so cancel over a drive, 0.3 to 4 Hz
+/// for the angular rates. Nothing else about it is physical; it does not act back on the strut.
+std::function<Sway(double t)> swayOf(const SimulationOptions& options);
 
 /// One message of one accelerometer, without gravity.
 struct AccelerometerReading {
@@ -78,8 +46,6 @@ class Accelerometer {
   std::optional<AccelerometerReading> read(double t, double acceleration);
 
  private:
-  double drawNoise();
-
   RandomStream noise_random_, delivery_random_;
   double noise_;
   bool gaussian_;

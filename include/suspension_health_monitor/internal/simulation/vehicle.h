@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,16 +10,6 @@
 #include "suspension_health_monitor/strut_model.h"
 
 namespace suspension_health_monitor {
-
-/// End stops of a strut: springs that act only beyond a travel of +-gap.
-struct EndStops {
-  double gap;                ///< [m]
-  double stiffness_to_mass;  ///< [1/s^2]
-
-  /// @param travel  d [m], compression positive.
-  /// @return force on the body per unit sprung mass [m/s^2], upwards in compression.
-  double forcePerMass(double travel) const;
-};
 
 /// A strut of a simulated vehicle with its wheel and tyre. The meaning of what users may set is in kVehicleStrutFields.
 struct VehicleStrut {
@@ -37,7 +26,9 @@ struct VehicleStrut {
   double ramp_start = 0.0;  ///< when damping and stiffness begin to change [s]
   double ramp_end = 0.0;    ///< when they have changed [s]; at once if it is ramp_start
 
-  std::optional<EndStops> end_stops = {};
+  /// End stops: springs that act only beyond a travel of +-gap [m]; stiffness over the own corner's mass [1/s^2], 0:
+  /// there are none.
+  double stop_gap = 0.0, stop_stiffness_to_mass = 0.0;
 
   double sprung_offset = 0.0;    ///< [m/s^2]
   double unsprung_offset = 0.0;  ///< [m/s^2]
@@ -47,6 +38,9 @@ struct VehicleStrut {
 
   /// @return what is left at time t of a number that goes to its share `end_fraction`.
   double shareAt(double t, double end_fraction) const;
+  /// @param travel  d [m], compression positive.
+  /// @return force of the end stops on the body per own corner mass [m/s^2], upwards in compression.
+  double stopForceToMass(double travel) const;
   bool isRigid() const { return tyre_stiffness == 0.0; }
 };
 
@@ -169,6 +163,13 @@ inline constexpr OptionField<VehicleImu> kVehicleImuFields[] = {
 /// them on the line and one axis; or one below it), and what acts on what.
 /// @throws std::invalid_argument  naming option, value and what is allowed.
 void validate(const Vehicle& vehicle);
+
+/// @return the settings, once they have passed validate().
+template <class Settings>
+const Settings& checked(const Settings& settings) {
+  validate(settings);
+  return settings;
+}
 
 /// @return names of the vehicles that namedVehicle() knows, with commas.
 std::string vehicleNames();

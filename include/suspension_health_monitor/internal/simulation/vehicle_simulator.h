@@ -83,15 +83,13 @@ class VehicleSimulator {
   /// @throws std::invalid_argument  as VehicleMotion::advance().
   std::optional<VehicleInstant> next();
 
-  const Vehicle& vehicle() const { return vehicle_; }
-
  private:
   std::optional<SixAxisReading> readBody(double t);
 
   Vehicle vehicle_;
   VehicleDriveOptions options_;
   VehicleMotion motion_;
-  SensorSchedule schedule_;
+  long long index_ = 0;  // of the next instant
   std::vector<Accelerometer> sprung_, unsprung_;
   Accelerometer body_;
   RandomStream body_noise_, gyro_noise_, force_noise_;

@@ -35,9 +35,7 @@ class TravelObserver {
   bool full() const { return slow_.front().full(); }
 
   /// [samples]
-  static int delayOf(int natural_period) {
-    return BandlimitedInterpolator::kHalfWidth + kVehicleTuning.means * natural_period / 2;
-  }
+  static int delayOf(int natural_period) { return kInterpolationReach + kVehicleTuning.means * natural_period / 2; }
 
   /// At the sample so much before the newest one, once full():
   double travel() const { return fast(0); }      ///< d [m]

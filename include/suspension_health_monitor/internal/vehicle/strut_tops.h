@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/signal/filters.h"
-#include "suspension_health_monitor/internal/signal/grid_streams.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {

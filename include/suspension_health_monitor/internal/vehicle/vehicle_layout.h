@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "suspension_health_monitor/internal/base/option_table.h"
-#include "suspension_health_monitor/internal/signal/grid_streams.h"
+#include "suspension_health_monitor/internal/signal/alignment.h"
 #include "suspension_health_monitor/internal/vehicle/vehicle_sample.h"
 
 namespace suspension_health_monitor {
@@ -51,10 +51,7 @@ struct VehicleLayout {
 
   /// Turns the axes of all positions.
   /// @param mount  into which: of BodyLevel.
-  void turn(const Eigen::Matrix3d& mount) {
-    for (Strut& strut : struts)
-      if (strut.position) Eigen::Map<Eigen::Vector3d>(strut.position->data()).applyOnTheLeft(mount);
-  }
+  void turn(const Eigen::Matrix3d& mount);
 };
 
 /// Takes the settings of a vehicle file out of `values`: `body_imu`, `struts/NAME/...` and `known_forces/NAME/...`.

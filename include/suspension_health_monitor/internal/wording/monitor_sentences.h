@@ -7,7 +7,6 @@
 
 #include "suspension_health_monitor/diagnose.h"
 #include "suspension_health_monitor/identify.h"
-#include "suspension_health_monitor/internal/health/assessment.h"
 #include "suspension_health_monitor/internal/health/corner_comparison.h"
 #include "suspension_health_monitor/internal/health/drive_change.h"
 #include "suspension_health_monitor/monitor_options.h"

@@ -1,10 +1,10 @@
-#include "vehicle_simulation_options.h"
+#include "simulator_options.h"
 
 #include <boost/tokenizer.hpp>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
-#include "model_file.h"
 #include "suspension_health_monitor/internal/base/text.h"
 #include "yaml_settings.h"
 
@@ -40,6 +40,26 @@ std::vector<bool> havingSprungImu(const std::string& names, const Vehicle& vehic
 }
 
 }  // namespace
+
+SimulatorOptions SimulatorOptions::fromValues(OptionMap values, const EffectLibrary& library) {
+  SimulatorOptions options;
+  takeOptions(values, kPublishingFields, options.publishing);
+  takeOptions(values, kPlayingFields, options.playing);
+  std::istringstream hidden(options.publishing.hidden);
+  for (std::string effect; std::getline(hidden, effect, ';');) {
+    effect.erase(0, effect.find_first_not_of(' '));
+    if (!effect.empty()) setEffect(values, effect, library.readings);
+  }
+  options.drive.hidden = takeEffects(values, library.forces, library.readings);
+  options.drive.hidden_faults = takeReadings(values, library.readings);
+  takeOptions(values, kSimulationFields, options.drive);
+  refuseUnknown(values, describe());
+  validate(options.drive);
+  if (options.publishing.road_imu && quarterCarOf(options.drive).struts.front().isRigid())
+    throw std::invalid_argument("road_imu = true, must be false for vehicle = " + options.drive.vehicle +
+                                " in scenario = " + options.drive.scenario + ": its wheel is rigid");
+  return options;
+}
 
 VehicleSimulationOptions VehicleSimulationOptions::fromValues(const std::string& model, OptionMap values) {
   VehicleSimulationOptions options;

@@ -26,8 +26,6 @@ class Recent {
 
   void clear() { samples_.clear(); }
 
-  std::size_t size() const { return samples_.size(); }
-
   /// @return true if the sample is newer than all that is kept.
   bool isNewer(const Sample& sample) const { return samples_.empty() || sample.stamp > samples_.back().stamp; }
 
