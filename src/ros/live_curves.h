@@ -20,6 +20,8 @@ class LiveCurves {
   /// @param host  outlives this object.  @param struts  where the topics of each are.
   /// @param diagnose_window  [s] of samples that are kept.
   LiveCurves(MonitorHost& host, const std::vector<ros::NodeHandle>& struts, double diagnose_window);
+  LiveCurves(const LiveCurves&) = delete;
+  LiveCurves& operator=(const LiveCurves&) = delete;
 
  private:
   /// A time of drive between two fits.

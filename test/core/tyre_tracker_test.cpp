@@ -102,24 +102,6 @@ TEST(TyreTracker, KnowsItsSpreadAfterARest) {
   }
 }
 
-// Rows of next to no motion weigh so much that least absolute does not leave them for ln(1e9) = 21 memories by itself.
-TEST(TyreTracker, LeastAbsoluteBeginsAgainFromLeastSquaresWhereItIsLost) {
-  MonitorSettings options = neverForgetting();
-  options.forgetting_factor = 1.0 - 1.0 / kRate;  // one second
-  TyreTracker tracker(options);
-  Stamp stamp{};
-  const auto follow = [&](const char* vehicle, double seconds, double size) {
-    for (const DriveSample& sample : drive(roadDrive(vehicle, 0.0, seconds))) {
-      stamp += fromSeconds(1.0 / kRate);
-      tracker.add({stamp, size * sample.sprung->acceleration, size * sample.unsprung->acceleration},
-                  size * sample.road->acceleration);
-    }
-  };
-  follow("ugv", 3.0, 1e-9);
-  follow("golden_car", 15.0, 1.0);
-  expectCar(tracker.report().la, carOf(roadDrive("golden_car", 0.0)), 0.01);
-}
-
 // Without noise only the integration rule errs, by the fourth power of the sampling time: 90 samples per hop.
 TEST(TyreTracker, FindsWheelAndTyreOfANoiseFreeDrive) {
   for (const char* vehicle : {"golden_car", "rover", "ugv"}) {
