@@ -25,7 +25,7 @@ MonitorSettings takeOptions(FuzzBytes& bytes) {
   MonitorSettings options;
   options.sample_period = kPeriods[bytes.choose(kPeriods.size())];
   options.integration_horizon = static_cast<double>(1 + bytes.choose(60)) * *options.sample_period;
-  options.rule = kRules[bytes.choose(kRules.size())];
+  options.integration_rule = kRules[bytes.choose(kRules.size())];
   options.forgetting_factor = kForgetting[bytes.choose(kForgetting.size())];
   const auto flags = bytes.take<std::uint8_t>();
   if ((flags & 1U) != 0) options.estimators.initial_variance_rule = InitialVariance::kAbsolute;
