@@ -2,7 +2,6 @@
 
 #include <boost/tokenizer.hpp>
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 
 #include "suspension_health_monitor/internal/base/text.h"
@@ -40,26 +39,6 @@ std::vector<bool> havingSprungImu(const std::string& names, const Vehicle& vehic
 }
 
 }  // namespace
-
-SimulatorOptions SimulatorOptions::fromValues(OptionMap values, const EffectLibrary& library) {
-  SimulatorOptions options;
-  takeOptions(values, kPublishingFields, options.publishing);
-  takeOptions(values, kPlayingFields, options.playing);
-  std::istringstream hidden(options.publishing.hidden);
-  for (std::string effect; std::getline(hidden, effect, ';');) {
-    effect.erase(0, effect.find_first_not_of(' '));
-    if (!effect.empty()) setEffect(values, effect, library.readings);
-  }
-  options.drive.hidden = takeEffects(values, library.forces, library.readings);
-  options.drive.hidden_faults = takeReadings(values, library.readings);
-  takeOptions(values, kSimulationFields, options.drive);
-  refuseUnknown(values, describe());
-  validate(options.drive);
-  if (options.publishing.road_imu && quarterCarOf(options.drive).struts.front().isRigid())
-    throw std::invalid_argument("road_imu = true, must be false for vehicle = " + options.drive.vehicle +
-                                " in scenario = " + options.drive.scenario + ": its wheel is rigid");
-  return options;
-}
 
 VehicleSimulationOptions VehicleSimulationOptions::fromValues(const std::string& model, OptionMap values) {
   VehicleSimulationOptions options;

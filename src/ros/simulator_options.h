@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,8 +86,27 @@ struct SimulatorOptions {
     return fromValues(std::move(values), readEffectsFile(options.publishing.effects_file));
   }
 
-  /// The same with the laws of effects_file, and the catalogue's.
-  static SimulatorOptions fromValues(OptionMap values, const EffectLibrary& library);
+  /// The same with the laws of effects_file, and the catalogue's. Stands here for the Python module of arrays, which
+  /// has nothing of ROS.
+  static SimulatorOptions fromValues(OptionMap values, const EffectLibrary& library) {
+    SimulatorOptions options;
+    takeOptions(values, kPublishingFields, options.publishing);
+    takeOptions(values, kPlayingFields, options.playing);
+    std::istringstream hidden(options.publishing.hidden);
+    for (std::string effect; std::getline(hidden, effect, ';');) {
+      effect.erase(0, effect.find_first_not_of(' '));
+      if (!effect.empty()) setEffect(values, effect, library.readings);
+    }
+    options.drive.hidden = takeEffects(values, library.forces, library.readings);
+    options.drive.hidden_faults = takeReadings(values, library.readings);
+    takeOptions(values, kSimulationFields, options.drive);
+    refuseUnknown(values, describe());
+    validate(options.drive);
+    if (options.publishing.road_imu && quarterCarOf(options.drive).struts.front().isRigid())
+      throw std::invalid_argument("road_imu = true, must be false for vehicle = " + options.drive.vehicle +
+                                  " in scenario = " + options.drive.scenario + ": its wheel is rigid");
+    return options;
+  }
 
   /// @return every option that fromValues() understands, by group.
   static std::vector<OptionDescription> describe() {
