@@ -7,6 +7,7 @@
 #include "suspension_health_monitor/internal/blocks/tuning.h"
 
 namespace suspension_health_monitor {
+
 double SlidingFriction::push(double time, double wheel) {
   const double spacing = time_ ? time - *time_ : 0.0;
   time_ = time;

@@ -101,18 +101,21 @@ StrutMotion between(const StrutMotion& from, const StrutMotion& to, double share
           at(from.body_acceleration, to.body_acceleration)};
 }
 
-// The wheel in a part of a step, from and to being shares of the step. Its position is the polynomial of fifth degree
-// with the step's four gains.
-WheelStep partOf(const WheelStep& wheel, double step, double from, double to) {
+// The wheel's position within a step is the polynomial of fifth degree with the step's four gains.
+// @return the wheel in a part of the step, by both ends of the part in shares of the step.
+auto partsOf(const WheelStep& wheel, double step) {
   const double pm = wheel.middle_position, vm = wheel.middle_velocity * step;
   const double pe = wheel.end_position, ve = wheel.end_velocity * step;
   const double c2 = 7 * pe - ve + 16 * pm - 8 * vm, c3 = -34 * pe + 5 * ve - 32 * pm + 32 * vm;
   const double c4 = 52 * pe - 8 * ve + 16 * pm - 40 * vm, c5 = -24 * pe + 4 * ve + 16 * vm;
-  const auto position = [&](double x) { return x * x * (c2 + x * (c3 + x * (c4 + x * c5))); };
-  const auto velocity = [&](double x) { return x * (2 * c2 + x * (3 * c3 + x * (4 * c4 + x * 5 * c5))); };  // per step
-  const double middle = (from + to) / 2, start = position(from), rate = velocity(from);
-  return {position(middle) - start - (middle - from) * rate, (velocity(middle) - rate) / step,
-          position(to) - start - (to - from) * rate, (velocity(to) - rate) / step};
+  return [=](double from, double to) -> WheelStep {
+    const auto position = [&](double x) { return x * x * (c2 + x * (c3 + x * (c4 + x * c5))); };
+    // Per step:
+    const auto velocity = [&](double x) { return x * (2 * c2 + x * (3 * c3 + x * (4 * c4 + x * 5 * c5))); };
+    const double middle = (from + to) / 2, start = position(from), rate = velocity(from);
+    return {position(middle) - start - (middle - from) * rate, (velocity(middle) - rate) / step,
+            position(to) - start - (to - from) * rate, (velocity(to) - rate) / step};
+  };
 }
 
 void integrateWithEffects(const StrutModel& model, double time, double step, const WheelStep& wheel,
@@ -122,9 +125,10 @@ void integrateWithEffects(const StrutModel& model, double time, double step, con
                         state.travel_rate + wheel.end_velocity, time};
   const int parts = numParts(model, start, end, step, state.memory);
   if (parts == 1) return integrate<true>(model, time, step, wheel, state);
+  const auto part = partsOf(wheel, step);
   for (int i = 0; i < parts; ++i) {
     const double from = static_cast<double>(i) / parts, to = (i + 1.0) / parts;
-    integrate<true>(model, time + from * step, step / parts, partOf(wheel, step, from, to), state);
+    integrate<true>(model, time + from * step, step / parts, part(from, to), state);
   }
 }
 

@@ -7,7 +7,7 @@
 namespace suspension_health_monitor {
 
 DriveSimulator::DriveSimulator(const SimulationOptions& options)
-    : options_(checked(options)),
+    : options_(validated(options)),
       sprung_{
           {options, Accelerometer::Place::kSprung}, {options.seed, RandomPurpose::kSprungTiming}, options.rate, 0.0},
       unsprung_{{options, Accelerometer::Place::kUnsprung},
@@ -53,13 +53,10 @@ std::optional<DriveSample> DriveSimulator::next() {
 }
 
 void DriveSimulator::scheduleNext(ScheduledSensor& sensor) const {
-  const auto k = static_cast<double>(++sensor.index);
-  sensor.next = sensor.phase + k / sensor.rate;
-  // A duration that is a whole number of periods must not lose its last sample to rounding.
-  if (k > (options_.duration - sensor.phase) * sensor.rate + 1e-6)
-    sensor.next = std::numeric_limits<double>::infinity();
-  else if (options_.sampling_jitter > 0.0)  // without jitter no number is drawn
-    sensor.next += options_.sampling_jitter * sensor.timing.uniform();
+  const std::optional<double> next = instantOf(++sensor.index, sensor.rate, sensor.phase, options_.duration);
+  sensor.next = next.value_or(std::numeric_limits<double>::infinity());
+  // Without jitter no number is drawn.
+  if (next && options_.sampling_jitter > 0.0) sensor.next += options_.sampling_jitter * sensor.timing.uniform();
 }
 
 Sway DriveSimulator::withNoise(Sway sway) {

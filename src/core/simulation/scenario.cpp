@@ -41,7 +41,8 @@ double fasterRate(const SimulationOptions& options) {
 // rover, ugv: our own choice of a small slow rover (body 1.7 Hz) and of a softer, faster one (1.0 Hz) on bad ground,
 //   with the golden car's ratio K0/K of about 10.
 Vehicle quarterCarOf(const SimulationOptions& options) {
-  // Mass, inertias, road and speed; of the strut name, place, damping, stiffness, the wheel's mass, the tyre's stiffness.
+  // Mass, inertias, road and speed; of the strut name, place, damping, stiffness, the wheel's mass, the tyre's
+  // stiffness.
   static const std::map<std::string, Vehicle> cars{
       {"paper", {50.0, 0.0, 0.0, "C", 5.0, {{"", 0.0, 0.0, 0.0, 150.0, 690.0, 5.0}}}},
       {"golden_car", {250.0, 0.0, 0.0, "C", 15.0, {{"", 0.0, 0.0, 0.0, 1500.0, 15825.0, 37.5, 163250.0}}}},

@@ -67,7 +67,7 @@ VehicleMotion::State restOn(const Vehicle& vehicle, std::vector<Road>& roads) {
 
 VehicleMotion::VehicleMotion(const Vehicle& vehicle, std::vector<Road> roads, double between_samples,
                              std::vector<Signal> known_forces)
-    : vehicle_(checked(vehicle)),
+    : vehicle_(validated(vehicle)),
       roads_(std::move(roads)),
       known_forces_(std::move(known_forces)),
       inverse_inertia_(1.0 / vehicle.mass, vehicle.pitches() ? 1.0 / vehicle.pitch_inertia : 0.0,

@@ -38,6 +38,12 @@ std::vector<VehicleMotion::Signal> signalsOf(const Vehicle& vehicle, int seed) {
   return signals;
 }
 
+// @return 0: left, 1: right, 2: in the middle.
+unsigned sideOf(const VehicleStrut& strut) {
+  if (strut.y > 0.0) return 0;
+  return strut.y < 0.0 ? 1 : 2;
+}
+
 // Accelerometers, whose clocks are right.
 SimulationOptions sensorsOf(const VehicleDriveOptions& drive) {
   SimulationOptions sensors;
@@ -57,12 +63,6 @@ void validate(const VehicleDriveOptions& options) {
   if (options.stamp_jitter >= 1.0 / options.rate)
     refuse("stamp_jitter", options.stamp_jitter, "s",
            formatted("less than one sample period, 1 / rate = %g", 1.0 / options.rate));
-}
-
-// @return 0: left, 1: right, 2: in the middle.
-unsigned sideOf(const VehicleStrut& strut) {
-  if (strut.y > 0.0) return 0;
-  return strut.y < 0.0 ? 1 : 2;
 }
 
 std::vector<Road> tracksOf(const Vehicle& vehicle, const std::string& tracks, int seed) {
@@ -94,8 +94,8 @@ SixAxisReading readIdeally(const VehicleTruth& truth, const VehicleImu& imu, dou
 }
 
 VehicleSimulator::VehicleSimulator(const Vehicle& vehicle, const VehicleDriveOptions& options)
-    : vehicle_(checked(vehicle)),
-      options_(checked(options)),
+    : vehicle_(validated(vehicle)),
+      options_(validated(options)),
       motion_(vehicle_, tracksOf(vehicle_, options.tracks, options.seed), 1.0 / options.rate,
               signalsOf(vehicle_, options.seed)),
       body_(sensorsOf(options), Accelerometer::Place::kSprung),
@@ -110,10 +110,9 @@ VehicleSimulator::VehicleSimulator(const Vehicle& vehicle, const VehicleDriveOpt
 }
 
 std::optional<VehicleInstant> VehicleSimulator::next() {
-  const auto k = static_cast<double>(index_++);
-  // A duration that is a whole number of periods must not lose its last instant to rounding.
-  if (k > options_.duration * options_.rate + 1e-6) return std::nullopt;
-  const double t = k / options_.rate;
+  const std::optional<double> next = instantOf(index_++, options_.rate, 0.0, options_.duration);
+  if (!next) return std::nullopt;
+  const double t = *next;
   motion_.advance(t);
 
   VehicleInstant sample;

@@ -98,6 +98,13 @@ void validate(const Options& options, const OptionField<Options> (&fields)[N]) {
   for (const OptionField<Options>& field : fields) option_table::check(option_table::bind(field, copy));
 }
 
+/// @return the settings, once they have passed their validate(settings).
+template <class Settings>
+const Settings& validated(const Settings& settings) {
+  validate(settings);
+  return settings;
+}
+
 /// Sets the options that `values` names and removes them from `values`, so that what is left is unknown to this table.
 /// @throws std::invalid_argument  on a value of the wrong type or outside its range; `options` is then unchanged.
 template <class Options, std::size_t N>

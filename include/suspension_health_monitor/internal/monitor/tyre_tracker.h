@@ -33,7 +33,7 @@ class TyreTracker {
   Stamp period_;
   EstimateFacts of_input_;
   StrutIdentifier identifier_;
-  StrutEstimate ls_, la_;  // of the wheel, as of a strut: K0/m is the coefficient of an effect
+  StrutEstimate ls_, la_;  // of the wheel in the fields of a strut; coefficients[0] is K0/m
   std::optional<Stamp> last_stamp_;
   TyreReport report_;
 };

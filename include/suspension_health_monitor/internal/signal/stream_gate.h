@@ -15,11 +15,11 @@ namespace suspension_health_monitor {
 /// What the readings of one sensor are like, the newest thousand of them. Cost per reading: O(1), no allocation.
 struct ReadingStatistics {
   std::optional<double> last;  ///< reading
-  int equal_in_a_row = 0;    ///< of one value, without a break, up to the last one; counts up to kSignalTuning.stuck
-  double finest_step = 0.0;  ///< smallest step other than 0 from one reading to the next
+  int equal_in_a_row = 0;      ///< of one value, without a break, up to the last one; counts up to kSignalTuning.stuck
+  double finest_step = 0.0;    ///< smallest step other than 0 from one reading to the next
   RunningMean average{StreamClock::kMemory};
   RunningMean distance{StreamClock::kMemory};  ///< from the average
-  RunningMean repeated{StreamClock::kMemory};   ///< 1: a reading equals the one before; both extremes are left out
+  RunningMean repeated{StreamClock::kMemory};  ///< 1: a reading equals the one before; both extremes are left out
 
   /// @param is_extreme  it equals the highest or the lowest reading so far, which a range may have cut off.
   void add(double reading, bool is_extreme);

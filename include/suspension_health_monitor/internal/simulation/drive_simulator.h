@@ -40,9 +40,9 @@ class DriveSimulator {
   struct ScheduledSensor {
     Accelerometer accelerometer;
     RandomStream timing;
-    double rate, phase;    // [Hz], [s]
-    long long index = -1;  // k
-    double next = 0.0;     // time of the next reading [s]; infinite after the end of the drive
+    double rate, phase;   // [Hz], [s]
+    double index = -1.0;  // k
+    double next = 0.0;    // time of the next reading [s]; infinite after the end of the drive
   };
 
   void scheduleNext(ScheduledSensor& sensor) const;

@@ -24,6 +24,13 @@ struct Sway {
 /// for the angular rates. Nothing else about it is physical; it does not act back on the strut.
 std::function<Sway(double t)> swayOf(const SimulationOptions& options);
 
+/// @return when reading k is taken, phase + k / rate [s]; none after the end of the drive. A duration that is a whole
+/// number of periods does not lose its last reading to rounding.
+inline std::optional<double> instantOf(double k, double rate, double phase, double duration) {
+  if (k > (duration - phase) * rate + 1e-6) return std::nullopt;
+  return phase + k / rate;
+}
+
 /// One message of one accelerometer, without gravity.
 struct AccelerometerReading {
   Stamp stamp{};              ///< by the sensor's own clock

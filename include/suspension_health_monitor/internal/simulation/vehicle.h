@@ -164,13 +164,6 @@ inline constexpr OptionField<VehicleImu> kVehicleImuFields[] = {
 /// @throws std::invalid_argument  naming option, value and what is allowed.
 void validate(const Vehicle& vehicle);
 
-/// @return the settings, once they have passed validate().
-template <class Settings>
-const Settings& checked(const Settings& settings) {
-  validate(settings);
-  return settings;
-}
-
 /// @return names of the vehicles that namedVehicle() knows, with commas.
 std::string vehicleNames();
 

@@ -89,7 +89,7 @@ class VehicleSimulator {
   Vehicle vehicle_;
   VehicleDriveOptions options_;
   VehicleMotion motion_;
-  long long index_ = 0;  // of the next instant
+  double index_ = 0.0;  // of the next instant
   std::vector<Accelerometer> sprung_, unsprung_;
   Accelerometer body_;
   RandomStream body_noise_, gyro_noise_, force_noise_;
